@@ -1,0 +1,2 @@
+//! The `fsb` command.
+fn main() {}
