@@ -1,2 +1,19 @@
-//! placeholder
+#![doc = include_str!("../README.md")]
 #![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod compensated;
+pub mod control;
+pub mod error;
+pub mod estimator;
+pub mod identifier;
+pub mod moments;
+pub mod observer;
+pub mod readout;
+pub mod tuning;
+pub mod window;
+
+pub use error::ConfigError;
+pub use estimator::{Estimator, EstimatorConfig, EstimatorDesign};
+pub use tuning::Tuning;

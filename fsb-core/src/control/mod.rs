@@ -1,0 +1,12 @@
+//! The certainty-equivalence controller of the paper's section 2.2: (11), (13), (70)-(71).
+//!
+//! | file | what |
+//! |---|---|
+//! | `tracking` | one axis: the input that gives the closed loop (12) |
+//! | `body_force` | (11): the world-frame force of three axes turned into the body frame |
+
+mod body_force;
+mod tracking;
+
+pub use body_force::to_body;
+pub use tracking::{ControlError, Reference, TrackingConfig, TrackingController};

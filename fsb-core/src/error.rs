@@ -1,0 +1,70 @@
+//! What is wrong with a configuration, by parameter.
+
+use core::fmt;
+
+/// A configuration was refused. Every variant carries the name of the parameter, as it is written in the configuration.
+///
+/// Nothing is clamped: a constructor either takes the values as they are or returns this.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ConfigError {
+    /// NaN or infinite.
+    NonFinite(&'static str),
+    /// Zero or negative where a positive value is needed.
+    NonPositive(&'static str),
+    /// Negative where zero or more is needed.
+    Negative(&'static str),
+    /// Outside the range in which f32 arithmetic keeps its accuracy; the documentation of the parameter states the range.
+    OutOfRange(&'static str),
+    /// A rate [1/s] times the period it runs at exceeds 1: the filter would have no memory. Lower the rate or sample faster.
+    TooFastForPeriod(&'static str),
+    /// A rate [1/s] times the period it runs at is below 1e-6: f32 cannot tell the filter from an integrator.
+    TooSlowForPeriod(&'static str),
+    /// The lower limit of a pair is not below the upper one.
+    InvertedRange(&'static str),
+    /// A count that must be at least one is zero.
+    Zero(&'static str),
+}
+
+impl ConfigError {
+    /// The name of the parameter at fault.
+    pub const fn parameter(self) -> &'static str {
+        match self {
+            Self::NonFinite(name)
+            | Self::NonPositive(name)
+            | Self::Negative(name)
+            | Self::OutOfRange(name)
+            | Self::TooFastForPeriod(name)
+            | Self::TooSlowForPeriod(name)
+            | Self::InvertedRange(name)
+            | Self::Zero(name) => name,
+        }
+    }
+}
+
+impl fmt::Display for ConfigError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.parameter())?;
+        out.write_str(match self {
+            Self::NonFinite(_) => " is not finite",
+            Self::NonPositive(_) => " must be positive",
+            Self::Negative(_) => " must not be negative",
+            Self::OutOfRange(_) => " is out of range",
+            Self::TooFastForPeriod(_) => " times the period it runs at must not exceed 1",
+            Self::TooSlowForPeriod(_) => " times the period it runs at must be at least 1e-6",
+            Self::InvertedRange(_) => ": the lower limit must be below the upper one",
+            Self::Zero(_) => " must be at least 1",
+        })
+    }
+}
+
+impl core::error::Error for ConfigError {}
+
+pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, ConfigError> {
+    if value.is_finite() { Ok(value) } else { Err(ConfigError::NonFinite(name)) }
+}
+
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, ConfigError> {
+    if finite(name, value)? > 0.0 { Ok(value) } else { Err(ConfigError::NonPositive(name)) }
+}

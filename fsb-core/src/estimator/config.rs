@@ -1,0 +1,70 @@
+//! The configuration of an [`super::Estimator`]: plain data.
+
+use crate::readout::{Memory, ParameterRule, Readout};
+use crate::tuning::Tuning;
+
+/// Plain data; [`super::EstimatorDesign::new`] validates it. Read once, hence f64.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct EstimatorConfig<const N: usize, const P: usize> {
+    /// Control period [s]: the time from one input to the next. 1e-6..=1e3.
+    pub period: f64,
+    /// Control periods from one measurement to the next, at least 1. The measurement period is `T = substeps * period`.
+    pub substeps: u32,
+    /// M, measurements per step of the identifier, at least 1. More than one where the measurement rate is high
+    /// (λT below about 1e-3): cheaper, and no less accurate. The axes take turns within the block.
+    pub block: u32,
+    /// Measurements by which the identifier starts later than the observer, so that several estimators on one processor do
+    /// not complete their blocks in the same tick. Below `block`.
+    pub turn: u32,
+    /// λ and q of the identifier.
+    pub identifier: Tuning,
+    /// λ and q of the observer.
+    pub observer: Tuning,
+    /// Standard deviation of a measurement [m or rad], where it is known beforehand. It is used until enough samples have
+    /// been seen to learn it; without it k̂ cannot be valid in the first eight steps of the variance (each 0.04/λ or a block).
+    pub noise_sd: Option<f64>,
+    /// How k is read out.
+    pub readout: Readout,
+    /// How long the read-out remembers.
+    pub memory: Memory,
+    /// Known constant drift c of each axis [m/s² or rad/s²], -g on a vertical axis that points up. Magnitude up to 1e6.
+    pub drift: [f64; N],
+    /// k0 of each parameter, used by the observer until k̂ is valid. `None`: no state is handed out before.
+    pub nominal: [Option<f64>; P],
+    /// When k̂ of each parameter counts as valid.
+    pub rule: [ParameterRule; P],
+    /// ε of the parameter [s]: k̂ is not valid earlier.
+    pub parameter_settle: f64,
+    /// ε of the state [s]: position and velocity are not handed out earlier.
+    pub state_settle: f64,
+    /// A measurement of larger magnitude is rejected [m or rad]. Up to 1e6.
+    pub position_limit: f64,
+    /// An input of larger magnitude is rejected [N or N m]. Up to 1e6.
+    pub input_limit: f64,
+}
+
+impl<const N: usize, const P: usize> EstimatorConfig<N, P> {
+    /// Every sample measured, no blocks, λ = 2, q = 1 for the identifier, λ = 10, q = 5 for the observer, least squares with
+    /// infinite memory, no drift, no nominal parameter, ε = 0.
+    pub fn new(period: f64) -> Self {
+        Self {
+            period,
+            substeps: 1,
+            block: 1,
+            turn: 0,
+            identifier: Tuning::from_lambda(2.0),
+            observer: Tuning::from_lambda(10.0),
+            noise_sd: None,
+            readout: Readout::LeastSquares,
+            memory: Memory::Infinite,
+            drift: [0.0; N],
+            nominal: [None; P],
+            rule: [ParameterRule::default(); P],
+            parameter_settle: 0.0,
+            state_settle: 0.0,
+            position_limit: 1e5,
+            input_limit: 1e5,
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! What an estimator hands out.
+
+use core::fmt;
+
+/// Position and velocity of an axis at the present tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct AxisState {
+    /// ŷ [m or rad], in the frame of the measurement.
+    pub position: f32,
+    /// v̂ [m/s or rad/s].
+    pub velocity: f32,
+}
+
+/// Whether a state may be used, and why not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum StateStatus {
+    /// This axis has not been measured yet.
+    NotMeasured,
+    /// Less than the configured time has passed since the first measurement.
+    Settling,
+    /// No parameter to predict with: k̂ is not valid and there is no nominal one.
+    NoParameter,
+    /// Usable, predicted with the nominal parameter.
+    Nominal,
+    /// Usable, predicted with the identified parameter.
+    Identified,
+}
+
+impl fmt::Display for StateStatus {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match self {
+            Self::NotMeasured => "not measured",
+            Self::Settling => "settling",
+            Self::NoParameter => "no parameter",
+            Self::Nominal => "on the nominal parameter",
+            Self::Identified => "on the identified parameter",
+        })
+    }
+}
+
+/// A measurement was given at an instant that is none: `missing` more inputs must be applied first. Nothing has changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct OutOfStep {
+    /// Control periods left until the next measurement instant.
+    pub missing: u32,
+}
+
+impl fmt::Display for OutOfStep {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "a measurement came {} control periods early", self.missing)
+    }
+}
+
+impl core::error::Error for OutOfStep {}
+
+/// Events since construction. They only rise, and stop at the largest number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Counters {
+    /// Measurements that did not come, over all axes.
+    pub missed: u32,
+    /// Measurements that were not finite or beyond the limit; treated as missed.
+    pub rejected_measurements: u32,
+    /// Inputs that were not finite or beyond the limit; the last good input of the axis was used in their place.
+    pub rejected_inputs: u32,
+}
+
+/// The identifier's inner signals in physical units: for logs and tests, not for control.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct AxisDiagnostics {
+    /// ẑ2 with the known drift removed: windowed, filtered acceleration [m/s² or rad/s²].
+    pub z2: f32,
+    /// ẑ0: windowed, filtered input [N or N m].
+    pub z0: f32,
+    /// ẑu: windowed, filtered one.
+    pub zu: f32,
+    /// The observer's innovation y - ŷ⁻ at the last measurement.
+    pub innovation: f32,
+    /// σ² of the measurement noise as learned so far: from sample to sample, and in the band of the identifier.
+    pub noise_variance: [f32; 2],
+    /// Σ ω ẑ2 of the axis's parameter, scaled.
+    pub numerator: f32,
+    /// Σ ω ẑ0 of the axis's parameter, scaled alike: the quotient of the two is the newest k̂, valid or not.
+    pub denominator: f32,
+}

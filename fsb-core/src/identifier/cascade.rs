@@ -1,0 +1,43 @@
+//! The six states of (38), one axis.
+
+use super::coefficients::{Coefficients, IdentifierDesign, KEEP_NORMAL};
+use crate::compensated::CompensatedSum;
+
+/// x1..x3 (position) and x4..x6 (input) of (38): two chains of three unit-gain low-pass stages `x += c (u - x)`.
+///
+/// Units: those of y'' for ẑ2 and those of f for ẑ0, times [`super::SCALE`].
+/// Numerics: every stage is a compensated sum, or it would stall up to ulp/(2c) from its input.
+/// Cost: 48 operations a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cascade {
+    pub(crate) x1: CompensatedSum,
+    pub(crate) x2: CompensatedSum,
+    pub(crate) x3: CompensatedSum,
+    pub(crate) x4: CompensatedSum,
+    pub(crate) x5: CompensatedSum,
+    pub(crate) x6: CompensatedSum,
+}
+
+impl Cascade {
+    /// One step with the position `y` (relative to any fixed origin) and the input term `s` = S[n] of the identity.
+    #[inline(always)]
+    pub fn step(&mut self, y: f32, s: f32, design: &IdentifierDesign, at: &Coefficients) {
+        let c = design.c;
+        self.x3.add(c * (at.b3 * y + KEEP_NORMAL - self.x3.value()));
+        self.x2.add(c * (at.b2 * y + self.x3.value() - self.x2.value()));
+        self.x1.add(c * (at.b1 * y + self.x2.value() - self.x1.value()));
+        self.x6.add(c * (at.g * (s * design.per_period2) + KEEP_NORMAL - self.x6.value()));
+        self.x5.add(c * (self.x6.value() - self.x5.value()));
+        self.x4.add(c * (self.x5.value() - self.x4.value()));
+    }
+
+    /// ẑ2, the windowed and filtered acceleration, scaled; a known drift is still in it.
+    pub const fn z2(&self) -> f32 {
+        self.x1.value()
+    }
+
+    /// ẑ0, the windowed and filtered input, scaled.
+    pub const fn z0(&self) -> f32 {
+        self.x4.value()
+    }
+}

@@ -1,0 +1,133 @@
+//! How white measurement noise reaches k̂: the covariance of (x1, x2, x3, a), a = Σ ω x1, under unit noise.
+//!
+//! The position cascade is X ← A X + B w with A, B known at every step, so P = cov(X) obeys P ← A P Aᵀ + B Bᵀ; it does not
+//! depend on the data and is shared by every axis of a tuning ([`NoiseShape`], six numbers). The noise that reaches the
+//! numerator of k̂ through the weights ω is a; its covariance with X is three numbers per axis ([`NoiseCross`]), and
+//!
+//! var a ← μ² var a + 2 μ ω (A q)₁ + ω² P₁₁,   q ← μ A q + ω P e₁,   std(k̂)² = σ² var a / (Σ ω ẑ0)².
+//!
+//! The recursion runs every D-th identifier step, where λ D T is still small: averaging the noise over D samples and
+//! weighing the mean D-fold is the same filter at a coarser step (design, section 11). The result is the exact variance
+//! up to terms of the order (λ D T)².
+
+use crate::identifier::{Coefficients, IdentifierDesign};
+use crate::tuning::Decay;
+use crate::window::Window;
+
+/// Constants of the covariance recursion.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct CovarianceDesign {
+    /// The identifier at the coarse step, in physical units.
+    coarse: IdentifierDesign,
+    c: f32,
+    p: f32,
+    cp: f32,
+    c2p: f32,
+    /// D
+    pub steps: u32,
+    /// D, as a weight
+    pub stride: f32,
+    /// 1/D
+    pub per_stride: f32,
+    /// μ over D steps
+    pub mu: f32,
+}
+
+impl CovarianceDesign {
+    /// λ D T is kept at about this.
+    const COARSE: f64 = 0.04;
+
+    /// For an identifier with the rates `lambda` and `q` at `period`, with the share `forgetting` forgotten in each step.
+    pub fn new(lambda: f64, q: f64, period: f64, forgetting: f64) -> Self {
+        let stride = libm::fmax(1.0, libm::round(Self::COARSE / (libm::fmax(lambda, q) * period)));
+        let coarse = stride * period;
+        let (c, alpha) = (-libm::expm1(-lambda * coarse), -libm::expm1(-q * coarse));
+        let decay = Decay { period: coarse, c, p: 1.0 - c, alpha, rho: 1.0 - alpha };
+        let p = 1.0 - c;
+        Self {
+            coarse: IdentifierDesign::from_decay(&decay, 1.0),
+            c: c as f32,
+            p: p as f32,
+            cp: (c * p) as f32,
+            c2p: (c * c * p) as f32,
+            steps: stride as u32,
+            stride: stride as f32,
+            per_stride: (1.0 / stride) as f32,
+            mu: libm::pow(1.0 - forgetting, stride) as f32,
+        }
+    }
+
+    /// 1 - μ² over a coarse step.
+    pub fn noise_forgetting(&self) -> f32 {
+        1.0 - self.mu * self.mu
+    }
+
+    /// A x, A = [[p, cp, c²p], [0, p, cp], [0, 0, p]].
+    #[inline(always)]
+    fn propagate(&self, x: [f32; 3]) -> [f32; 3] {
+        [self.p * x[0] + self.cp * x[1] + self.c2p * x[2], self.p * x[1] + self.cp * x[2], self.p * x[2]]
+    }
+}
+
+/// P = cov(x1, x2, x3) for unit noise, upper triangle, in physical units (the position's, per s⁴).
+#[derive(Clone, Copy, Debug)]
+pub struct NoiseShape {
+    window: Window,
+    p11: f32,
+    p12: f32,
+    p13: f32,
+    p22: f32,
+    p23: f32,
+    p33: f32,
+}
+
+impl NoiseShape {
+    /// Before the first sample.
+    pub(crate) const START: Self =
+        Self { window: Window::START, p11: 0.0, p12: 0.0, p13: 0.0, p22: 0.0, p23: 0.0, p33: 0.0 };
+
+    /// One coarse step. Cost: about 70 operations.
+    pub(crate) fn step(&mut self, design: &CovarianceDesign) {
+        let at = Coefficients::at(&self.window, &design.coarse);
+        self.window.step(&design.coarse.window);
+        let c = design.c;
+        // B: how one noisy sample enters the three stages, which feed one another within the step.
+        let b3 = c * at.b3;
+        let b2 = c * (at.b2 + b3);
+        let b1 = c * (at.b1 + b2);
+        // Columns of A P, then rows of (A P) Aᵀ.
+        let first = design.propagate([self.p11, self.p12, self.p13]);
+        let second = design.propagate([self.p12, self.p22, self.p23]);
+        let third = design.propagate([self.p13, self.p23, self.p33]);
+        let row1 = design.propagate([first[0], second[0], third[0]]);
+        let row2 = design.propagate([first[1], second[1], third[1]]);
+        self.p11 = row1[0] + b1 * b1;
+        self.p12 = row1[1] + b1 * b2;
+        self.p13 = row1[2] + b1 * b3;
+        self.p22 = row2[1] + b2 * b2;
+        self.p23 = row2[2] + b2 * b3;
+        self.p33 = design.p * third[2] + b3 * b3;
+    }
+
+    /// Variance of ẑ2 for coarse noise of variance one.
+    pub(crate) const fn variance(&self) -> f32 {
+        self.p11
+    }
+}
+
+/// q = cov(X, a), one axis.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoiseCross {
+    q: [f32; 3],
+}
+
+impl NoiseCross {
+    /// One coarse step with the weight ω. Returns what is added to var a beyond its own fading. Cost: 22 operations.
+    pub(crate) fn step(&mut self, weight: f32, shape: &NoiseShape, design: &CovarianceDesign) -> f32 {
+        let moved = design.propagate(self.q);
+        let faded = [design.mu * moved[0], design.mu * moved[1], design.mu * moved[2]];
+        self.q = [faded[0] + weight * shape.p11, faded[1] + weight * shape.p12, faded[2] + weight * shape.p13];
+        weight * (2.0 * faded[0] + weight * shape.p11)
+    }
+}

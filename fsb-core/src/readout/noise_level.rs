@@ -1,0 +1,59 @@
+//! The variance σ² of the measurement noise of one axis, learned from the data in two bands.
+//!
+//! * From sample to sample: y[n] - 2 y[n-1] + y[n-2] - k S[n] - c T² is a second difference of the noise, of variance 6 σ².
+//!   Many independent values in a short time, hardly touched by an error of k.
+//! * In the band of the identifier: the residual ẑ2 - k ẑ0 has the variance σ² P₁₁. Few independent values, but it sees
+//!   what the model lacks (drag, wind, a swinging load), which the first does not.
+//!
+//! The larger one counts. Each is a mean over the past, at first of all values, later over the last 256.
+
+/// Two running means of σ².
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct NoiseLevel {
+    fine: f32,
+    slow: f32,
+    values: u16,
+}
+
+impl NoiseLevel {
+    /// The longest memory, in values.
+    const MEMORY: u16 = 256;
+    /// Values before which the level is not trusted.
+    const ENOUGH: u16 = 8;
+
+    /// A level known beforehand; it counts as much as the least number of values that is trusted.
+    pub(crate) const fn expected(variance: f32) -> Self {
+        Self { fine: variance, slow: variance, values: Self::ENOUGH }
+    }
+
+    /// Adds one value of each: `fine` from the second difference, `slow` from the residual.
+    pub(crate) fn add(&mut self, fine: f32, slow: f32) {
+        if self.values < Self::MEMORY {
+            self.values += 1;
+        }
+        let gain = 1.0 / f32::from(self.values);
+        self.fine += gain * (fine - self.fine);
+        self.slow += gain * (slow - self.slow);
+    }
+
+    /// σ² [position²] of the means that the identifier works on.
+    pub fn variance(&self) -> f32 {
+        if self.slow > self.fine { self.slow } else { self.fine }
+    }
+
+    /// Both: from sample to sample, and in the band of the identifier.
+    pub const fn variances(&self) -> [f32; 2] {
+        [self.fine, self.slow]
+    }
+
+    /// Whether enough values have been seen.
+    pub const fn is_known(&self) -> bool {
+        self.values >= Self::ENOUGH
+    }
+
+    /// σ² as it shows from sample to sample: measurement noise alone.
+    pub const fn measurement_variance(&self) -> f32 {
+        self.fine
+    }
+}

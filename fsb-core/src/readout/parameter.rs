@@ -1,0 +1,190 @@
+//! k with its variance, and the rule by which it may be used.
+
+use super::ratio::Ratio;
+use crate::compensated::CompensatedSum;
+use crate::error::{ConfigError, finite, positive};
+use core::fmt;
+
+/// An identified parameter: k of (15), 1/m or 1/I.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Parameter {
+    /// k̂ [1/kg, 1/(kg m²), or the input's unit in place of N or N m].
+    pub value: f32,
+    /// Variance of k̂.
+    pub variance: f32,
+}
+
+impl Parameter {
+    /// Standard deviation of k̂. Uses a square root: not for the tick.
+    pub fn sd(&self) -> f32 {
+        libm::sqrtf(self.variance)
+    }
+
+    /// m = 1/k, and its standard deviation sd(k)/k².
+    pub fn inverse_with_sd(&self) -> (f32, f32) {
+        let inverse = 1.0 / self.value;
+        (inverse, self.sd() * inverse * inverse)
+    }
+}
+
+/// Whether k̂ may be used, and why not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ParameterStatus {
+    /// Less than the configured time has passed since the last reset.
+    #[default]
+    Settling,
+    /// The input has been zero: nothing can be said.
+    Unexcited,
+    /// The standard deviation is above the configured share of k̂.
+    Uncertain,
+    /// k̂ is outside the configured range.
+    OutOfRange,
+    /// Usable.
+    Valid,
+}
+
+impl fmt::Display for ParameterStatus {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match self {
+            Self::Settling => "settling",
+            Self::Unexcited => "unexcited",
+            Self::Uncertain => "uncertain",
+            Self::OutOfRange => "out of range",
+            Self::Valid => "valid",
+        })
+    }
+}
+
+/// When k̂ counts as valid. Plain data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ParameterRule {
+    /// The smallest k that can be right; positive. A smaller k̂ is reported, never used.
+    pub min: f64,
+    /// The largest k that can be right.
+    pub max: f64,
+    /// The largest sd(k̂)/k̂ at which k̂ becomes valid. It stays valid up to twice that (hysteresis).
+    pub max_relative_sd: f64,
+}
+
+impl Default for ParameterRule {
+    /// Any positive k that f32 handles well, known to 5 %.
+    fn default() -> Self {
+        Self { min: 1e-6, max: 1e9, max_relative_sd: 0.05 }
+    }
+}
+
+impl CheckedRule {
+    /// Accepts nothing.
+    pub const NEVER: Self = Self { min: f32::MAX, max: 0.0, relative_variance: 0.0 };
+}
+
+impl ParameterRule {
+    pub(crate) fn checked(&self) -> Result<CheckedRule, ConfigError> {
+        let min = positive("parameter.min", self.min)?;
+        if finite("parameter.max", self.max)? <= min {
+            return Err(ConfigError::InvertedRange("parameter.min"));
+        }
+        let share = positive("parameter.max_relative_sd", self.max_relative_sd)?;
+        if !(1e-15..=1e15).contains(&min) || !(1e-15..=1e15).contains(&self.max) {
+            return Err(ConfigError::OutOfRange("parameter.min, parameter.max"));
+        }
+        if share > 1e6 {
+            return Err(ConfigError::OutOfRange("parameter.max_relative_sd"));
+        }
+        Ok(CheckedRule { min: min as f32, max: self.max as f32, relative_variance: (share * share) as f32 })
+    }
+}
+
+/// A [`ParameterRule`] that has been validated.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct CheckedRule {
+    min: f32,
+    max: f32,
+    relative_variance: f32,
+}
+
+/// One parameter: its sums, pooled over the axes that share it, and what has been read out of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ParameterState {
+    pub ratio: Ratio,
+    /// var a of every axis, weighted with its σ²
+    noise: CompensatedSum,
+    value: f32,
+    variance: f32,
+    pub status: ParameterStatus,
+    read: bool,
+    credible: bool,
+}
+
+impl ParameterState {
+    /// Nothing known: no quotient, and a variance above any limit.
+    pub const START: Self = Self {
+        ratio: Ratio::EMPTY,
+        noise: CompensatedSum::ZERO,
+        value: 0.0,
+        variance: f32::MAX,
+        status: ParameterStatus::Settling,
+        read: false,
+        credible: false,
+    };
+
+    /// The newest quotient, valid or not: for prediction in place of a missed sample, and for residuals.
+    pub fn newest(&self) -> Option<f32> {
+        if self.read { Some(self.value) } else { None }
+    }
+
+    /// The newest quotient, where it is in range and its standard deviation is below its value.
+    pub fn credible(&self) -> Option<f32> {
+        if self.credible { Some(self.value) } else { None }
+    }
+
+    /// The parameter, where it is valid.
+    pub fn valid(&self) -> Option<Parameter> {
+        match self.status {
+            ParameterStatus::Valid => Some(Parameter { value: self.value, variance: self.variance }),
+            _ => None,
+        }
+    }
+
+    /// Takes up what a coarse step of all its axes added to var a (weighted with σ²); `fading` is 1 - μ².
+    pub fn add_noise(&mut self, added: f32, fading: f32) {
+        self.noise.add(added - fading * self.noise.value());
+    }
+
+    /// The variance from the sums as they are. `scale2` is the square of the identifier's scale.
+    pub fn read_variance(&mut self, scale2: f32) {
+        let information = self.ratio.denominator();
+        if information > 0.0 {
+            self.variance = (self.noise.value() / information) * (scale2 / information);
+        }
+    }
+
+    /// The quotient from the sums as they are, and its status.
+    pub fn read(&mut self, settled: bool, rule: &CheckedRule) {
+        let information = self.ratio.denominator();
+        let before = self.status;
+        if information > 0.0 {
+            self.value = self.ratio.numerator() / information;
+            self.read = true;
+        }
+        let value2 = self.value * self.value;
+        let in_range = self.value >= rule.min && self.value <= rule.max;
+        self.credible = in_range && self.variance <= value2;
+        self.status = if !settled {
+            ParameterStatus::Settling
+        } else if !self.read {
+            ParameterStatus::Unexcited
+        } else if !in_range {
+            ParameterStatus::OutOfRange
+        } else {
+            let hysteresis = if before == ParameterStatus::Valid { 4.0 } else { 1.0 };
+            let limit = hysteresis * rule.relative_variance * value2;
+            if self.variance <= limit { ParameterStatus::Valid } else { ParameterStatus::Uncertain }
+        };
+    }
+}

@@ -1,0 +1,89 @@
+//! k as a quotient of two running sums.
+
+use crate::compensated::CompensatedSum;
+use crate::error::{ConfigError, positive};
+
+/// How k is read out of ẑ2 = k ẑ0 (ẑ2 with the known drift removed).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Readout {
+    /// k = Σ ẑ2 ẑ0 / Σ ẑ0². Keeps the sign of k; unbiased by noise in ẑ2; close to the Cramér-Rao bound.
+    #[default]
+    LeastSquares,
+    /// k = Σ|ẑ2| / Σ|ẑ0|, (44), the paper's. Loses the sign; reads too high where the excitation is weak against the noise.
+    AbsoluteRatio,
+}
+
+/// How long the sums remember.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Memory {
+    /// All samples weigh the same, for ever.
+    #[default]
+    Infinite,
+    /// S ← e^(-T/τ) S + new.
+    Fading {
+        /// τ [s], at least one identifier period.
+        tau: f64,
+    },
+}
+
+impl Memory {
+    /// 1 - e^(-T/τ); zero for infinite memory.
+    pub(crate) fn forgetting(self, period: f64) -> Result<f64, ConfigError> {
+        match self {
+            Self::Infinite => Ok(0.0),
+            Self::Fading { tau } => {
+                let x = period / positive("memory.tau", tau)?;
+                if x > 1.0 { Err(ConfigError::OutOfRange("memory.tau")) } else { Ok(-libm::expm1(-x)) }
+            }
+        }
+    }
+}
+
+/// The weight ω of a sample in both sums: k = Σ ω ẑ2 / Σ ω ẑ0.
+#[inline(always)]
+pub(crate) fn weight(readout: Readout, z2: f32, z0: f32) -> (f32, f32) {
+    match readout {
+        Readout::LeastSquares => (z0, z0),
+        Readout::AbsoluteRatio => (if z2 < 0.0 { -1.0 } else { 1.0 }, if z0 < 0.0 { -1.0 } else { 1.0 }),
+    }
+}
+
+/// The two sums. Compensated, so that they go on absorbing new samples for days.
+#[derive(Clone, Copy, Debug)]
+pub struct Ratio {
+    numerator: CompensatedSum,
+    denominator: CompensatedSum,
+}
+
+impl Ratio {
+    /// No samples yet.
+    pub const EMPTY: Self = Self { numerator: CompensatedSum::ZERO, denominator: CompensatedSum::ZERO };
+
+    /// Below this a sample holds no information (the input has been zero): the sums are left alone, and do not fade.
+    const NOTHING: f32 = 1e-30;
+
+    /// Adds a sample of ẑ2 (known drift removed) and ẑ0. `forgetting` is 1 - e^(-T/τ). Cost: 15 operations.
+    #[inline(always)]
+    pub fn add(&mut self, readout: Readout, z2: f32, z0: f32, forgetting: f32) {
+        let (up, down) = weight(readout, z2, z0);
+        let information = down * z0;
+        if information >= Self::NOTHING {
+            self.numerator.add(up * z2 - forgetting * self.numerator.value());
+            self.denominator.add(information - forgetting * self.denominator.value());
+        }
+    }
+
+    /// Σ ω ẑ2.
+    pub const fn numerator(&self) -> f32 {
+        self.numerator.value()
+    }
+
+    /// Σ ω ẑ0, the information collected; zero before there is any.
+    pub const fn denominator(&self) -> f32 {
+        self.denominator.value()
+    }
+}
