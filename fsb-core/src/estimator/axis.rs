@@ -117,7 +117,9 @@ impl Axis {
                 self.age = 0;
                 y
             }
-            None if self.measured => self.observer.predict(moments, &by.model, &clock.before, &design.observer),
+            None if self.measured => {
+                self.observer.predict(moments, &by.model, &clock.before, &clock.gains, &design.observer)
+            }
             None => 0.0,
         }
     }

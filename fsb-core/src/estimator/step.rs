@@ -256,9 +256,9 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         };
         let t = self.substep as f32 * self.design.control_period;
         let velocity = axis.observer.velocity();
-        let position = axis.observer.position(&self.observer.gains);
+        let ahead = t * velocity + by.model.k * axis.moments.j2 + by.model.drift * (0.5 * t * t);
         let state = AxisState {
-            position: position + (t * velocity + by.model.k * axis.moments.j2 + by.model.drift * (0.5 * t * t)),
+            position: axis.observer.position(ahead, &self.observer.gains),
             velocity: velocity + (by.model.k * axis.moments.j1 + by.model.drift * t),
         };
         Some((status, state))
