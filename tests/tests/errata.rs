@@ -1,7 +1,7 @@
 //! Each erratum of `docs/errata.md`: the printed version fails, the corrected one holds.
 
-use fsb_sim_host::paper_form::bibo::{gamma11, max_b11, max_b21};
-use fsb_sim_host::paper_form::{Identifier, Step, Tuning, Window, rk4};
+use fsb_sim_host::paper_form::bibo::{gamma11, gamma12, gamma22, max_b11, max_b21};
+use fsb_sim_host::paper_form::{AdbObserver, Identifier, Observer, Step, Tuning, Window, rk4};
 
 const TUNING: Tuning = Tuning { lambda: 2.0, q: 1.0 };
 const K: f64 = 2.0;
@@ -228,4 +228,27 @@ fn integrals_of_the_read_out_are_unbounded() {
     assert!((fourfold.z2() / K - fourfold.z0()).abs() < 1e-6, "the states themselves stay exact");
     assert!((run(-K, 100.0).k().unwrap() - K).abs() < 1e-4, "the sign is lost");
     assert_eq!(Identifier::new(TUNING, 0.0).k(), None);
+}
+
+/// (63), (64), (68), (69) print k where |k| is meant: with k < 0 and y = 0 the printed bounds are negative.
+#[test]
+fn gains_need_the_modulus_of_k() {
+    let (k, t_end) = (-3.0_f64, 10.0_f64);
+    let (mut fsb, mut adb) = (Observer::new(TUNING, k, 0.0), AdbObserver::new(k, 0.0));
+    for n in 0..(t_end / DT).round() as usize {
+        let step = Step::new(TUNING, n as f64 * DT, DT);
+        fsb.step(&step, &[0.0; 3], &[1.0; 3]);
+        adb.step(n as f64 * DT, DT, &[0.0; 3], &[1.0; 3]);
+    }
+    let lambda = TUNING.lambda;
+    // State, bound as printed, bound with the modulus.
+    let cases = [
+        (fsb.states()[1], k / lambda, gamma22(lambda, k)),
+        (fsb.states()[0], k / (lambda * lambda), gamma12(lambda, k)),
+        (adb.states()[0], k / 3.0 * t_end.powi(3), k.abs() / 3.0 * t_end.powi(3)),
+        (adb.states()[1], k / 12.0 * t_end.powi(4), k.abs() / 12.0 * t_end.powi(4)),
+    ];
+    for (state, printed, corrected) in cases {
+        assert!(state.abs() > printed && state.abs() <= corrected * (1.0 + 1e-9), "{state}, {printed}, {corrected}");
+    }
 }
