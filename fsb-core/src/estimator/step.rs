@@ -6,7 +6,6 @@ use super::design::EstimatorDesign;
 use super::output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
 use super::shared::{IdentifierClock, ObserverClock};
 use crate::error::ConfigError;
-use crate::identifier::SCALE;
 use crate::moments::InputMoments;
 use crate::readout::{Parameter, ParameterState, ParameterStatus};
 
@@ -285,10 +284,11 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             let drift = self.design.drift.get(index).copied().unwrap_or(0.0);
             let ratio = self.parameters.get(EstimatorDesign::<N, P>::parameter_of(index)).map(|p| p.ratio);
             let zu = self.identifier.unit.zu();
+            let scale = self.design.identifier.scale;
             AxisDiagnostics {
-                z2: (axis.cascade.z2() - drift * zu) / SCALE,
-                z0: axis.cascade.z0() / SCALE,
-                zu: zu / SCALE,
+                z2: (axis.cascade.z2() - drift * zu) / scale,
+                z0: axis.cascade.z0() / scale,
+                zu: zu / scale,
                 innovation: axis.observer.innovation(),
                 noise_variance: axis.noise.variances(),
                 numerator: ratio.map_or(0.0, |r| r.numerator()),
