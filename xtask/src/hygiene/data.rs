@@ -1,4 +1,4 @@
-//! Recorded flights stay out of the repository: their authors' licences do not allow it.
+//! Recorded flights stay out of the repository: they belong to others, not all of whom gave a licence.
 
 use std::fs;
 use std::path::{Path, PathBuf};
