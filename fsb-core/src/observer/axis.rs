@@ -57,20 +57,20 @@ impl Observer {
 
     /// Predicts over one period with the input `moments` and corrects with the measurement `y`.
     ///
-    /// `before` are the gains of the sample before, `now` those of this one. Cost: 14 operations. Every 32 samples or
-    /// sooner [`fold`](Self::fold) is due.
+    /// `m1` is that of the sample before, `t_l2` that of this one. Cost: 14 operations. Every 32 samples or sooner
+    /// [`fold`](Self::fold) is due.
     #[inline(always)]
-    pub fn correct(&mut self, y: f32, moments: InputMoments, model: &Model, before: &Gains, now: &Gains) {
+    pub fn correct(&mut self, y: f32, moments: InputMoments, model: &Model, m1: f32, t_l2: f32) {
         let step = self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2);
-        self.r = (y - self.y) - step + before.m1 * self.r;
-        self.w.add(model.k_t2 * moments.j1 + model.c_t2 + now.t_l2 * self.r);
+        self.r = (y - self.y) - step + m1 * self.r;
+        self.w.add(model.k_t2 * moments.j1 + model.c_t2 + t_l2 * self.r);
         self.y = y;
     }
 
-    /// ŷ⁻, the measurement to be expected after one period: what takes the place of one that is missed.
-    #[inline(always)]
-    pub fn predict(&self, moments: InputMoments, model: &Model, before: &Gains) -> f32 {
-        self.y + (self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2) - before.m1 * self.r)
+    /// ŷ⁻, the measurement to be expected after one period: what takes the place of one that is missed. `m1` is that of
+    /// the sample before.
+    pub fn predict(&self, moments: InputMoments, model: &Model, m1: f32) -> f32 {
+        self.y + (self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2) - m1 * self.r)
     }
 
     /// Moves collected steps into totals, and ends an innovation that has died away.
