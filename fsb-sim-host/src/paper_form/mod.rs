@@ -16,6 +16,9 @@
 //! Every system is linear and integrated by the classical Runge-Kutta method. Between samples y is the chord of the two
 //! samples and f is held; a step is taken when its closing sample arrives, so nothing looks ahead.
 
+// Brackets in these docs hold units and sample indices.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod adb;
 pub mod bibo;
 pub mod estimator;

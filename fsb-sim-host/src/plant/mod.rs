@@ -5,6 +5,9 @@
 //! | `axis` | one axis, y'' = k f + c, stepped without discretisation error |
 //! | `recording` | a noise-free flight of one axis under a PD-like law |
 
+// Brackets in these docs hold units and sample indices.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod axis;
 pub mod recording;
 

@@ -12,6 +12,9 @@
 //! rounding from the third sample on. f64 carries this: noise-free at 8 kHz the rounding of positions of a few metres costs
 //! 1e-9 of k at the third sample, and less ever after.
 
+// Brackets in these docs hold units and sample indices.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod identifier;
 pub mod moments;
 pub mod observer;
