@@ -5,9 +5,13 @@
 //! is what removes y(0) and y'(0).
 //!
 //! Numerics: e by multiplication keeps its relative precision for ever; h by accumulation is exact near 0, where it
-//! matters, and is replaced by 1 - e once e <= 1/2. e is set to 0 below 1e-30, so it never becomes subnormal.
-//! Cost: 4 operations a step, 9 with the neighbours; no transcendental.
+//! matters, and would stagnate near 1. From e = 1/2 on it is therefore h∞ - e, with the h∞ = h + e of that moment and not 1:
+//! a window that jumps, if only by an ulp, looks like a position that jumps, while nothing in the identity needs h∞ = 1.
+//! Both are compensated sums: a rounding error that stays in the window is a step of it, and costs 1e-6 of k at 8 kHz; one
+//! that is made up for at the next sample costs nothing. e is set to 0 below 1e-30, so it never becomes subnormal.
+//! Cost: 11 operations a step, 9 with the neighbours; no transcendental.
 
+use crate::compensated::CompensatedSum;
 use crate::tuning::Decay;
 
 /// Constants of the window.
@@ -27,8 +31,10 @@ impl WindowDesign {
 /// e = ρ^n and h = 1 - ρ^n at the current sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    e: f32,
-    h: f32,
+    e: CompensatedSum,
+    h: CompensatedSum,
+    /// h + e.
+    limit: f32,
 }
 
 /// The window and its neighbours at sample n.
@@ -50,10 +56,10 @@ pub(crate) struct Neighbours {
 
 impl Window {
     /// n = 0: e = 1, h = 0.
-    pub const START: Self = Self { e: 1.0, h: 0.0 };
+    pub const START: Self = Self { e: CompensatedSum::new(1.0), h: CompensatedSum::ZERO, limit: 1.0 };
 
     pub(crate) fn neighbours(&self, design: &WindowDesign) -> Neighbours {
-        let (e, h) = (self.e, self.h);
+        let (e, h) = (self.e.value(), self.h.value());
         let h_before = h - design.alpha_over_rho * e;
         let h_next = h + design.alpha * e;
         let e_next = e - design.alpha * e;
@@ -63,8 +69,17 @@ impl Window {
 
     /// n ← n + 1.
     pub(crate) fn step(&mut self, design: &WindowDesign) {
-        let e_next = self.e - design.alpha * self.e;
-        self.h = if self.e > 0.5 { self.h + design.alpha * self.e } else { 1.0 - e_next };
-        self.e = if e_next < 1e-30 { 0.0 } else { e_next };
+        let e = self.e.value();
+        let step = design.alpha * e;
+        self.e.add(-step);
+        if e > 0.5 {
+            self.h.add(step);
+            self.limit = self.h.value() + self.e.value();
+        } else {
+            if e < 1e-30 {
+                self.e = CompensatedSum::ZERO;
+            }
+            self.h = CompensatedSum::new(self.limit - self.e.value());
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The state of one axis and its step.
 
-use super::design::{EstimatorDesign, SCALE2};
+use super::design::EstimatorDesign;
 use super::shared::{IdentifierClock, ObserverClock};
 use crate::identifier::{BlockMeans, Cascade, FreeState};
 use crate::moments::InputMoments;
@@ -117,7 +117,9 @@ impl Axis {
                 self.age = 0;
                 y
             }
-            None if self.measured => self.observer.predict(moments, &by.model, &clock.before, &design.observer),
+            None if self.measured => {
+                self.observer.predict(moments, &by.model, &clock.before, &clock.gains, &design.observer)
+            }
             None => 0.0,
         }
     }
@@ -194,7 +196,7 @@ impl Axis {
             let residual = z2 - k * z0;
             self.noise.add(
                 second_difference * second_difference * (1.0 / 6.0),
-                covariance.stride * (residual * residual) / (response * SCALE2),
+                covariance.stride * (residual * residual) / (response * design.identifier.scale2()),
             );
         }
         let (w, _) = weight(design.readout, z2, z0);
@@ -203,7 +205,7 @@ impl Axis {
         let fading = if P == 1 && axis > 0 { 0.0 } else { design.noise_forgetting };
         parameter.add_noise(added * (self.noise.variance() * covariance.per_stride), fading);
         if self.noise.is_known() {
-            parameter.read_variance(SCALE2);
+            parameter.read_variance(design.identifier.scale2());
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::config::EstimatorConfig;
 use crate::error::{ConfigError, finite, positive};
-use crate::identifier::{BlockDesign, IdentifierDesign, SCALE};
+use crate::identifier::{BlockDesign, IdentifierDesign};
 use crate::observer::ObserverDesign;
 use crate::readout::{CheckedRule, CovarianceDesign, NoiseLevel, Readout};
 use crate::tuning::checked_period;
@@ -38,8 +38,6 @@ pub struct EstimatorDesign<const N: usize, const P: usize> {
     pub(super) position_limit: f32,
     pub(super) input_limit: f32,
 }
-
-pub(super) const SCALE2: f32 = SCALE * SCALE;
 
 impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
     const SHAPE: () = assert!(N >= 1 && (P == 1 || P == N), "P must be 1 (pooled) or N (one parameter per axis)");
@@ -102,7 +100,7 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
             block_length: config.block,
             turn: config.turn,
             observer: ObserverDesign::named(config.observer, period, "observer.lambda", "observer.q")?,
-            identifier: IdentifierDesign::from_decay(&decay, f64::from(SCALE)),
+            identifier: IdentifierDesign::from_decay(&decay),
             block: BlockDesign::new(period, config.block),
             readout: config.readout,
             forgetting: forgetting as f32,

@@ -6,7 +6,6 @@ use super::design::EstimatorDesign;
 use super::output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
 use super::shared::{IdentifierClock, ObserverClock};
 use crate::error::ConfigError;
-use crate::identifier::SCALE;
 use crate::moments::InputMoments;
 use crate::readout::{Parameter, ParameterState, ParameterStatus};
 
@@ -256,9 +255,9 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         };
         let t = self.substep as f32 * self.design.control_period;
         let velocity = axis.observer.velocity();
-        let position = axis.observer.position(&self.observer.gains);
+        let ahead = t * velocity + by.model.k * axis.moments.j2 + by.model.drift * (0.5 * t * t);
         let state = AxisState {
-            position: position + (t * velocity + by.model.k * axis.moments.j2 + by.model.drift * (0.5 * t * t)),
+            position: axis.observer.position(ahead, &self.observer.gains),
             velocity: velocity + (by.model.k * axis.moments.j1 + by.model.drift * t),
         };
         Some((status, state))
@@ -285,10 +284,11 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             let drift = self.design.drift.get(index).copied().unwrap_or(0.0);
             let ratio = self.parameters.get(EstimatorDesign::<N, P>::parameter_of(index)).map(|p| p.ratio);
             let zu = self.identifier.unit.zu();
+            let scale = self.design.identifier.scale;
             AxisDiagnostics {
-                z2: (axis.cascade.z2() - drift * zu) / SCALE,
-                z0: axis.cascade.z0() / SCALE,
-                zu: zu / SCALE,
+                z2: (axis.cascade.z2() - drift * zu) / scale,
+                z0: axis.cascade.z0() / scale,
+                zu: zu / scale,
                 innovation: axis.observer.innovation(),
                 noise_variance: axis.noise.variances(),
                 numerator: ratio.map_or(0.0, |r| r.numerator()),

@@ -5,7 +5,7 @@ use crate::compensated::CompensatedSum;
 
 /// x1..x3 (position) and x4..x6 (input) of (38): two chains of three unit-gain low-pass stages `x += c (u - x)`.
 ///
-/// Units: those of y'' for ẑ2 and those of f for ẑ0, times [`super::SCALE`].
+/// Units: those of y'' for ẑ2 and those of f for ẑ0, times the design's scale.
 /// Numerics: every stage is a compensated sum, or it would stall up to ulp/(2c) from its input.
 /// Cost: 48 operations a step.
 #[derive(Clone, Copy, Debug, Default)]

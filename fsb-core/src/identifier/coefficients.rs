@@ -3,17 +3,21 @@
 //! Writing z⁻¹ = (1 - Δ)/p with Δ = 1 - p z⁻¹ in `z⁻²(g[n+1] y) - 2 z⁻¹(g[n] y) + g[n-1] y` gives
 //!
 //! b1 = (c²/(T²p²)) G,   b2 = -(2c/(T²p²)) h₊ [(1-ρ²) e + c h],
-//! b3 = (1/(T²p²)) { [α²(1+ρ)/ρ] e [(1+ρ) e - 1] + 2c [(1-ρ²)/ρ] h e + c² g₋ },
+//! b3 = (1/(T²p²)) { [α²(1+ρ)/ρ] e [ρ e - h] + 2c [(1-ρ²)/ρ] h e + c² g₋ },
 //!
-//! with c = 1 - p, G = g[n+1], g₋ = g[n-1]. No bracket cancels, so f32 suffices at any rate.
+//! with c = 1 - p, G = g[n+1], g₋ = g[n-1]. No bracket cancels, so f32 suffices at any rate. All three take c²/(T²p²) from
+//! one rounded constant: once the window is open they are in the proportion 1 : -2 : 1 exactly, and a position that stays
+//! leaves nothing in ẑ2.
 
 use crate::error::ConfigError;
 use crate::tuning::{Decay, Tuning, checked_period};
 use crate::window::{Window, WindowDesign};
 
-/// Both sides of the identity are carried 2^20 times larger than in physical units. This keeps the squares of the first
-/// windowed samples (g is of the order of (qT)²) in the normal range of f32 and costs nothing: the factor sits in constants.
-pub const SCALE: f32 = 1_048_576.0;
+/// Both sides of the identity are carried about 2^20 times larger than in physical units. This keeps the squares of the
+/// first windowed samples (g is of the order of (qT)²) in the normal range of f32 and costs nothing: the factor sits in
+/// constants. Which factor between 2^20 and 2^21 is free, and chosen so that the constants suffer least from rounding.
+const SCALE: f64 = 1_048_576.0;
+const SCALE_CHOICES: u32 = 512;
 
 /// Added to the input of each cascade, in scaled units: a cascade left without input settles here, instead of decaying
 /// through the subnormal numbers. It is 1e-26 of the physical unit.
@@ -26,45 +30,83 @@ pub struct IdentifierDesign {
     pub(crate) window: WindowDesign,
     /// c = 1 - e^(-λT)
     pub(crate) c: f32,
+    /// The factor by which both sides are larger than in physical units.
+    pub(crate) scale: f32,
     /// scale/T²
     pub(crate) per_period2: f32,
-    one_minus_rho2: f32,
-    one_plus_rho: f32,
+    rho: f32,
     b1: f32,
-    b2: f32,
+    b2_start: f32,
     b3_start: f32,
     b3_mixed: f32,
     slope: f32,
 }
 
 impl IdentifierDesign {
-    /// Constants for `tuning` at `period` [s], in scaled units ([`SCALE`]).
+    /// Constants for `tuning` at `period` [s].
     ///
     /// # Errors
     /// Names `lambda`, `q` or `period` where λT or qT is not within 1e-6..=1 or the period not within 1e-6..=1e3 s.
     pub fn new(tuning: Tuning, period: f64) -> Result<Self, ConfigError> {
         let decay = tuning.decay(checked_period("period", period)?, "lambda", "q")?;
-        Ok(Self::from_decay(&decay, f64::from(SCALE)))
+        Ok(Self::from_decay(&decay))
     }
 
-    pub(crate) fn from_decay(decay: &Decay, scale: f64) -> Self {
-        let Decay { period, c, p, alpha, rho } = *decay;
-        let per_period2 = scale / (period * period);
-        let base = per_period2 / (p * p);
-        let one_minus_rho2 = alpha * (1.0 + rho);
+    pub(crate) fn from_decay(decay: &Decay) -> Self {
+        let constants = constants(decay);
+        let loss = |scale: f64| constants.iter().map(|x| rounding(scale * x)).fold(0.0, libm::fmax);
+        let mut best = (loss(SCALE), SCALE);
+        for choice in 1..SCALE_CHOICES {
+            // Exact in f32.
+            let scale = SCALE * (1.0 + f64::from(choice) / f64::from(SCALE_CHOICES));
+            let loss = loss(scale);
+            if loss < best.0 {
+                best = (loss, scale);
+            }
+        }
+        Self::at_scale(decay, best.1)
+    }
+
+    pub(crate) fn at_scale(decay: &Decay, scale: f64) -> Self {
+        let [per_period2, b1, b2_start, b3_start, b3_mixed] = constants(decay).map(|x| (scale * x) as f32);
         Self {
             window: WindowDesign::new(decay),
-            c: c as f32,
-            per_period2: per_period2 as f32,
-            one_minus_rho2: one_minus_rho2 as f32,
-            one_plus_rho: (1.0 + rho) as f32,
-            b1: (base * c * c) as f32,
-            b2: (-2.0 * base * c) as f32,
-            b3_start: (base * alpha * alpha * (1.0 + rho) / rho) as f32,
-            b3_mixed: (2.0 * base * c * one_minus_rho2 / rho) as f32,
-            slope: (base * c * p) as f32,
+            c: decay.c as f32,
+            scale: scale as f32,
+            per_period2,
+            rho: decay.rho as f32,
+            b1,
+            b2_start,
+            b3_start,
+            b3_mixed,
+            slope: (scale * decay.c / (decay.p * decay.period * decay.period)) as f32,
         }
     }
+
+    /// The square of the scale: by how much sums of products are larger than in physical units.
+    pub(crate) const fn scale2(&self) -> f32 {
+        self.scale * self.scale
+    }
+}
+
+/// 1/T², and the constants of b1, of the two parts of b2 and b3 that fade with the window; in physical units.
+fn constants(decay: &Decay) -> [f64; 5] {
+    let Decay { period, c, p, alpha, rho } = *decay;
+    let per_period2 = 1.0 / (period * period);
+    let base = per_period2 / (p * p);
+    let one_minus_rho2 = alpha * (1.0 + rho);
+    [
+        per_period2,
+        base * c * c,
+        -2.0 * base * c * one_minus_rho2,
+        base * alpha * alpha * (1.0 + rho) / rho,
+        2.0 * base * c * one_minus_rho2 / rho,
+    ]
+}
+
+/// What rounding to f32 takes from `x`, relative to it.
+fn rounding(x: f64) -> f64 {
+    libm::fabs(f64::from(x as f32) / x - 1.0)
 }
 
 /// The weights at one sample, shared by every axis with the same tuning.
@@ -88,8 +130,8 @@ impl Coefficients {
         let w = window.neighbours(&design.window);
         Self {
             b1: design.b1 * w.g_after,
-            b2: design.b2 * (w.h_next * (design.one_minus_rho2 * w.e + design.c * w.h)),
-            b3: design.b3_start * (w.e * (design.one_plus_rho * w.e - 1.0))
+            b2: w.h_next * (design.b2_start * w.e - 2.0 * design.b1 * w.h),
+            b3: design.b3_start * (w.e * (design.rho * w.e - w.h))
                 + design.b3_mixed * (w.h * w.e)
                 + design.b1 * w.g_before,
             g: w.g_before,

@@ -25,6 +25,6 @@ mod unit;
 
 pub use block::{BlockDesign, BlockMeans};
 pub use cascade::Cascade;
-pub use coefficients::{Coefficients, IdentifierDesign, SCALE};
+pub use coefficients::{Coefficients, IdentifierDesign};
 pub use free_state::FreeState;
 pub use unit::UnitChain;

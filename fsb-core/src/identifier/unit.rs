@@ -1,6 +1,6 @@
 //! ẑu: the cascade's response to an input of one, for the part of ẑ2 that a known drift explains.
 
-use super::coefficients::{Coefficients, IdentifierDesign, SCALE};
+use super::coefficients::{Coefficients, IdentifierDesign};
 use crate::compensated::CompensatedSum;
 
 /// Three stages driven by g[n-1]. Shared by all axes of a tuning; only needed where some axis has a drift.
@@ -16,7 +16,7 @@ impl UnitChain {
     #[inline(always)]
     pub fn step(&mut self, design: &IdentifierDesign, at: &Coefficients) {
         let c = design.c;
-        self.u3.add(c * (at.g * SCALE - self.u3.value()));
+        self.u3.add(c * (at.g * design.scale - self.u3.value()));
         self.u2.add(c * (self.u3.value() - self.u2.value()));
         self.u1.add(c * (self.u2.value() - self.u1.value()));
     }

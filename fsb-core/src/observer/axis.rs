@@ -37,7 +37,7 @@ struct Motion {
 pub struct Observer {
     /// The last measurement, or what was predicted in its place.
     y: f32,
-    /// The innovation at the last sample; zero where nothing was measured.
+    /// The innovation at the last sample; as good as zero where nothing was measured.
     r: f32,
     v: CompensatedSum,
 }
@@ -78,11 +78,24 @@ impl Observer {
     }
 
     /// Predicts over one period; nothing was measured. Returns the predicted position.
+    ///
+    /// The position is large and its change small: what rounding takes from the sum is kept in r, so that a run of missed
+    /// measurements adds no noise of its own.
     #[inline(always)]
-    pub fn predict(&mut self, moments: InputMoments, model: &Model, before: &Gains, design: &ObserverDesign) -> f32 {
+    pub fn predict(
+        &mut self,
+        moments: InputMoments,
+        model: &Model,
+        before: &Gains,
+        now: &Gains,
+        design: &ObserverDesign,
+    ) -> f32 {
         let motion = self.motion(moments, model, design);
-        self.y += motion.position - before.m1 * self.r;
-        self.r = 0.0;
+        let step = motion.position - before.m1 * self.r;
+        let y = self.y + step;
+        let lost = step - (y - self.y);
+        self.r = if now.m1 > 0.0 { -lost / now.m1 } else { 0.0 };
+        self.y = y;
         self.v.add(motion.velocity);
         self.y
     }
@@ -95,10 +108,10 @@ impl Observer {
         }
     }
 
-    /// ŷ at the last sample, `gains` being those of that sample.
+    /// ŷ at the last sample plus `ahead`, `gains` being those of that sample. Rounded once.
     #[inline(always)]
-    pub fn position(&self, gains: &Gains) -> f32 {
-        self.y - gains.m1 * self.r
+    pub fn position(&self, ahead: f32, gains: &Gains) -> f32 {
+        self.y + (ahead - gains.m1 * self.r)
     }
 
     /// The last measurement, or what was predicted in its place.
@@ -112,7 +125,7 @@ impl Observer {
         self.v.value()
     }
 
-    /// The innovation y - ŷ⁻ at the last sample; zero where nothing was measured.
+    /// The innovation y - ŷ⁻ at the last sample; below an ulp of y where nothing was measured.
     #[inline(always)]
     pub const fn innovation(&self) -> f32 {
         self.r

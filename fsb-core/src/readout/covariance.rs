@@ -46,7 +46,7 @@ impl CovarianceDesign {
         let decay = Decay { period: coarse, c, p: 1.0 - c, alpha, rho: 1.0 - alpha };
         let p = 1.0 - c;
         Self {
-            coarse: IdentifierDesign::from_decay(&decay, 1.0),
+            coarse: IdentifierDesign::at_scale(&decay, 1.0),
             c: c as f32,
             p: p as f32,
             cp: (c * p) as f32,

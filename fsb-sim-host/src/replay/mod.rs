@@ -1,1 +1,3 @@
-//! (module under construction)
+//! Recorded flights through the f32 core: the axis log and its reader.
+
+pub mod log;
