@@ -8,6 +8,9 @@
 //!
 //! Results go to stdout, everything else to stderr. With `--json` stdout holds one JSON object and nothing else.
 
+// Documentation of arguments is help text, and units stand in brackets there.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 mod efficiency;
 mod paper;
 mod soak;
