@@ -18,6 +18,9 @@
 //! | `page` | the report |
 //! | `open_loop` | efficiency and coverage on the paper's trajectory with the force given |
 
+// Units stand in brackets; they are no links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod figures;
 mod figures_compared;
 pub mod flight;

@@ -10,6 +10,9 @@
 //! positions and forces rounded to f32. Identifier λ = 2, q = 1 without block means, the hardest case for f32 (a filter step
 //! of 0.002 at 1 kHz); observer λ = 10, q = 5.
 
+// Units stand in brackets; they are no links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 mod plan;
 mod twin_pair;
 mod words;

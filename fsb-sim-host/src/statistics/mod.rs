@@ -6,6 +6,9 @@
 //! | `coverage` | how often an interval holds the truth, with its own confidence interval |
 //! | `cramer_rao` | the Cramér-Rao bound of k from raw positions |
 
+// Units stand in brackets; they are no links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod coverage;
 pub mod cramer_rao;
 pub mod summary;
