@@ -12,8 +12,9 @@ use super::gains::{Gains, ObserverDesign};
 use crate::accumulator::Accumulator;
 use crate::moments::InputMoments;
 
-/// Innovations below this are none, m or rad: they end at zero instead of decaying through the subnormal numbers.
-const NO_INNOVATION: f32 = 1e-20;
+/// Innovations, and motions in a period, below this are none, m or rad: they end at zero instead of decaying through the
+/// subnormal numbers.
+const NOTHING: f32 = 1e-20;
 
 /// What the axis is taken to obey, `y'' = k f + c`, over one period: k T² and c T².
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,12 +74,15 @@ impl Observer {
         self.y + (self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2) - m1 * self.r)
     }
 
-    /// Moves collected steps into totals, and ends an innovation that has died away.
+    /// Moves collected steps into totals, and ends an innovation and a velocity that have died away.
     #[inline(always)]
     pub fn fold(&mut self) {
         self.w.fold();
-        if self.r.abs() < NO_INNOVATION {
+        if self.r.abs() < NOTHING {
             self.r = 0.0;
+            if self.w.value().abs() < NOTHING {
+                self.w = Accumulator::ZERO;
+            }
         }
     }
 
