@@ -3,6 +3,7 @@
 
 pub mod paper_form;
 pub mod plant;
+pub mod progress;
 pub mod replay;
 pub mod report;
 pub mod section_v;
