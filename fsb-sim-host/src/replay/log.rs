@@ -1,0 +1,191 @@
+//! The axis log: a CSV file of positions and inputs, read and checked.
+//!
+//! A header, then one row per sample, separated by commas:
+//!
+//! | column | content |
+//! |---|---|
+//! | `t` | time \[s\], uniform |
+//! | `x` `y` `z` `roll` `pitch` `yaw` | measured position \[m\] or angle \[rad\]; empty: a missed measurement |
+//! | `fx` `fy` `fz` `taux` `tauy` `tauz` | its mean input over \[tₙ, tₙ₊₁): force \[N\] (world frame, z up) or torque \[N m\] |
+//! | `vx_ref` … `vyaw_ref` | optional velocity to compare with \[m/s, rad/s\]; empty: none at this sample |
+//!
+//! An axis is read when both its position and its input are there. Columns of other names are not looked at. A byte order
+//! mark, CRLF line ends and spaces around names and numbers are accepted. Every number must be finite and within f32.
+//!
+//! # Uniform time
+//! The period is the mean step, (t_last − t_first)/(N − 1): the rounding of written times does not accumulate in it, as it
+//! would in any single step. Each step may then differ from the period, and each time from its place on the grid
+//! t_first + n·period, by 1 % of the period plus the rounding that the written digits explain (half a unit in the last place
+//! of the longest number in the column, so that 2.5 ms steps written in whole milliseconds pass), and by never more than
+//! 45 % (a lost row makes its step 100 % longer).
+
+mod axis;
+mod clock;
+mod error;
+mod header;
+#[cfg(test)]
+mod tests;
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use csv::{ByteRecord, ReaderBuilder, Trim};
+
+pub use axis::Axis;
+pub use error::LogError;
+
+use clock::Clock;
+use error::Place;
+use header::{AxisHeader, Header};
+
+/// The fewest samples a log may have.
+pub const FEWEST_SAMPLES: usize = 4;
+
+/// One axis of a log: every column has a value per sample.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct AxisColumn {
+    /// Which axis.
+    pub axis: Axis,
+    /// Measured position \[m\] or angle \[rad\]; `None` is a missed measurement.
+    pub position: Vec<Option<f64>>,
+    /// Mean force \[N\] or torque \[N m\] from this sample to the next.
+    pub input: Vec<f64>,
+    /// Velocity to compare with \[m/s\] or \[rad/s\], if the log has the column; `None` inside: none at this sample.
+    pub velocity_reference: Option<Vec<Option<f64>>>,
+}
+
+/// A log that passed every check.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct AxisLog {
+    /// Time of the first sample \[s\].
+    pub start: f64,
+    /// Time from one sample to the next \[s\], > 0.
+    pub period: f64,
+    /// The axes, at least one, in the order of [`Axis::ALL`].
+    pub axes: Vec<AxisColumn>,
+    /// Position and input columns without their other half, which are not read.
+    pub unpaired: Vec<&'static str>,
+    samples: usize,
+}
+
+impl AxisLog {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`LogError`], which names the file as `path` does, and the line and the column where there are any.
+    pub fn read(path: &Path) -> Result<Self, LogError> {
+        let name = path.display().to_string();
+        match File::open(path) {
+            Ok(file) => Self::from_reader(&name, file),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Err(LogError::NotFound { file: name }),
+            Err(source) => Err(LogError::NotReadable { file: name, source }),
+        }
+    }
+
+    /// Reads anything; `name` stands for the file in error messages.
+    ///
+    /// # Errors
+    /// As [`AxisLog::read`].
+    pub fn from_reader(name: &str, mut reader: impl Read) -> Result<Self, LogError> {
+        let mut bytes = Vec::new();
+        if let Err(source) = reader.read_to_end(&mut bytes) {
+            return Err(LogError::NotReadable { file: name.into(), source });
+        }
+        parse(name, bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))
+    }
+
+    /// Number of samples, at least [`FEWEST_SAMPLES`].
+    #[must_use]
+    #[allow(clippy::len_without_is_empty, reason = "a log is never empty")]
+    pub fn len(&self) -> usize {
+        self.samples
+    }
+
+    /// Time of a sample \[s\] on the uniform grid.
+    #[must_use]
+    pub fn time(&self, sample: usize) -> f64 {
+        self.start + sample as f64 * self.period
+    }
+}
+
+fn parse(file: &str, bytes: &[u8]) -> Result<AxisLog, LogError> {
+    let mut rows = Rows::new(file, bytes);
+    let Some((place, fields)) = rows.next()? else { return Err(LogError::Empty { file: file.into() }) };
+    let header = Header::read(&place, &fields)?;
+    let mut clock = Clock::new(file);
+    let mut axes: Vec<AxisColumn> = header.axes.iter().map(AxisHeader::column).collect();
+
+    while let Some((place, fields)) = rows.next()? {
+        if fields.len() != header.names.len() {
+            return Err(place.field_count(fields.len(), &header.names));
+        }
+        let time = &fields[header.time];
+        clock.push(&place, time, place.number("t", time)?)?;
+        for (columns, axis) in header.axes.iter().zip(&mut axes) {
+            axis.position.push(place.optional(columns.axis.name(), &fields[columns.position])?);
+            axis.input.push(place.number(columns.axis.input_name(), &fields[columns.input])?);
+            if let (Some(index), Some(reference)) = (columns.reference, &mut axis.velocity_reference) {
+                reference.push(place.optional(columns.axis.reference_name(), &fields[index])?);
+            }
+        }
+    }
+    let last = rows.last_line();
+    let samples = clock.len();
+    let (start, period) = clock.finish(last)?;
+    Ok(AxisLog { start, period, axes, unpaired: header.unpaired, samples })
+}
+
+/// The rows of a CSV text, each with the line it starts on.
+struct Rows<'a> {
+    file: &'a str,
+    bytes: &'a [u8],
+    reader: csv::Reader<&'a [u8]>,
+    /// `line` is the one that the byte at `counted` is on.
+    line: usize,
+    counted: usize,
+}
+
+impl<'a> Rows<'a> {
+    fn new(file: &'a str, bytes: &'a [u8]) -> Self {
+        let reader = ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(bytes);
+        Self { file, bytes, reader, line: 1, counted: 0 }
+    }
+
+    fn next(&mut self) -> Result<Option<(Place<'a>, ByteRecord)>, LogError> {
+        let mut record = ByteRecord::new();
+        let found = self
+            .reader
+            .read_byte_record(&mut record)
+            .map_err(|error| LogError::NotReadable { file: self.file.into(), source: io::Error::other(error) })?;
+        if !found {
+            return Ok(None);
+        }
+        // The position that comes with a record lies before the rest of a CRLF and before empty lines.
+        let mut begin = record.position().map_or(0, |position| position.byte() as usize);
+        while matches!(self.bytes.get(begin), Some(b'\r' | b'\n')) {
+            begin += 1;
+        }
+        self.count_to(begin);
+        Ok(Some((Place { file: self.file, line: self.line }, record)))
+    }
+
+    /// The line of the last row.
+    fn last_line(&self) -> usize {
+        self.line
+    }
+
+    fn count_to(&mut self, end: usize) {
+        for at in self.counted..end {
+            let after_return = at > 0 && self.bytes[at - 1] == b'\r';
+            match self.bytes[at] {
+                b'\n' if !after_return => self.line += 1,
+                b'\r' => self.line += 1,
+                _ => {}
+            }
+        }
+        self.counted = end;
+    }
+}

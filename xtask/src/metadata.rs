@@ -1,0 +1,24 @@
+//! What `cargo metadata` says.
+
+use anyhow::{Context, Result};
+use serde_json::Value;
+
+use crate::command::output;
+
+/// The workspace's own packages.
+pub fn members() -> Result<Vec<Value>> {
+    packages(&["metadata", "--format-version", "1", "--no-deps"])
+}
+
+/// Every package of the dependency graph, for every platform.
+pub fn everything() -> Result<Vec<Value>> {
+    packages(&["metadata", "--format-version", "1"])
+}
+
+fn packages(arguments: &[&str]) -> Result<Vec<Value>> {
+    let mut metadata: Value = serde_json::from_str(&output("cargo", arguments)?)?;
+    match metadata["packages"].take() {
+        Value::Array(packages) => Ok(packages),
+        _ => None.context("cargo metadata lists no packages"),
+    }
+}

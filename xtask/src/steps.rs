@@ -1,0 +1,99 @@
+//! The steps of the gate, and the runner that times them and says which failed.
+
+use std::io::Write;
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+
+use crate::{hygiene, licences, lints, setup, suite, target};
+
+/// One step of the gate.
+#[derive(Debug)]
+pub struct Step {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// One line for `--help`.
+    pub about: &'static str,
+    run: fn() -> Result<()>,
+}
+
+/// In the order of the gate: quick ones first, the tests last, so that their result lines stand above the summary.
+pub const STEPS: &[Step] = &[
+    Step { name: "setup", about: "install what the other steps use, or say what to install", run: setup::run },
+    Step { name: "fmt", about: "formatting", run: lints::fmt },
+    Step { name: "hygiene", about: "rules on the text of the repository", run: hygiene::run },
+    Step { name: "licences", about: "every dependency under a licence of the allow-list", run: licences::run },
+    Step { name: "clippy", about: "lints, all targets and features, warnings denied", run: lints::clippy },
+    Step { name: "target", about: "the core on thumbv7em with every feature combination", run: target::run },
+    Step { name: "doc", about: "documentation, warnings denied", run: lints::doc },
+    Step { name: "suite", about: "cargo test on the whole workspace", run: suite::run },
+];
+
+/// Runs the steps one after the other, the rest too when one fails (except without `setup`); true if all passed.
+pub fn run(steps: &[&Step]) -> bool {
+    let start = Instant::now();
+    let mut summary = Vec::new();
+    for step in steps {
+        println!("\n=== {}: {}", step.name, step.about);
+        let begin = Instant::now();
+        let outcome = (step.run)();
+        let time = begin.elapsed();
+        if let Err(error) = &outcome {
+            println!("=== {} FAILED: {error:#}", step.name);
+        }
+        println!("=== {} took {}", step.name, seconds(time));
+        flush();
+        summary.push((step.name, time, outcome.is_ok()));
+        if outcome.is_err() && step.name == "setup" {
+            break;
+        }
+    }
+
+    println!("\n{:<10} {:<7} {:>8}", "step", "result", "time");
+    for (name, time, passed) in &summary {
+        println!("{name:<10} {:<7} {:>8}", if *passed { "ok" } else { "FAILED" }, seconds(*time));
+    }
+    println!("{:<10} {:<7} {:>8}", "total", "", seconds(start.elapsed()));
+    let failed: Vec<_> = summary.iter().filter(|(_, _, passed)| !passed).map(|(name, ..)| *name).collect();
+    for name in &failed {
+        println!("failed: {name}; alone: cargo xtask {name}");
+    }
+    if summary.len() < steps.len() {
+        println!("not run: {} steps, because setup failed", steps.len() - summary.len());
+    }
+    flush();
+    failed.is_empty()
+}
+
+fn seconds(time: Duration) -> String {
+    format!("{:.1} s", time.as_secs_f64())
+}
+
+/// A log that is a pipe keeps its order with what the children print. A closed pipe is nobody's failure.
+fn flush() {
+    let _ = std::io::stdout().flush();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use anyhow::bail;
+
+    static GOOD: Step = Step { name: "good", about: "", run: || Ok(()) };
+    static BAD: Step = Step { name: "bad", about: "", run: || bail!("as it should") };
+
+    #[test]
+    fn one_failure_fails_the_run() {
+        assert!(run(&[&GOOD, &GOOD]));
+        assert!(!run(&[&BAD, &GOOD]));
+        assert!(!run(&[&GOOD, &BAD]));
+    }
+
+    #[test]
+    fn names_are_unique_and_none_hides_the_gate() {
+        for (index, step) in STEPS.iter().enumerate() {
+            assert_ne!(step.name, "test");
+            assert!(STEPS[..index].iter().all(|other| other.name != step.name));
+        }
+    }
+}
