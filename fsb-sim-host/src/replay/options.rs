@@ -32,6 +32,9 @@ impl Default for ReplayOptions {
     }
 }
 
+/// The core rejects positions and inputs beyond this [m, rad, N or N m].
+pub(super) const LIMIT: f64 = 1e6;
+
 /// The least λ times the identifier's period that a replay uses: below it samples are averaged into blocks.
 const FINEST_STEP: f64 = 2e-3;
 
@@ -62,8 +65,8 @@ impl ReplayOptions {
             memory: self.memory,
             drift,
             rule: [Self::rule(); P],
-            position_limit: 1e6,
-            input_limit: 1e6,
+            position_limit: LIMIT,
+            input_limit: LIMIT,
             ..EstimatorConfig::new(period)
         }
     }

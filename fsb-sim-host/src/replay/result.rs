@@ -3,7 +3,7 @@
 use super::error::ReplayError;
 use super::feed::{AxisTrace, Column, ParameterTrace, Trace, feed};
 use super::log::{Axis, AxisColumn, AxisLog};
-use super::options::ReplayOptions;
+use super::options::{LIMIT, ReplayOptions};
 use fsb_core::ConfigError;
 
 /// What a replay gave. Every trace has one entry per sample of the log.
@@ -92,10 +92,12 @@ fn replay_group(
     pooled: bool,
 ) -> Result<Trace, ReplayError> {
     let samples = axes.iter().map(|a| a.position.len()).min().unwrap_or(0);
-    let start = (0..samples).find(|&n| axes.iter().all(|a| a.position[n].is_some())).ok_or_else(|| {
-        let names: Vec<&str> = axes.iter().map(|a| a.axis.name()).collect();
-        ReplayError::NeverMeasured { columns: names.join(", ") }
-    })?;
+    let start = (0..samples)
+        .find(|&n| axes.iter().all(|a| a.position[n].is_some_and(|y| y.abs() <= LIMIT)))
+        .ok_or_else(|| {
+            let names: Vec<&str> = axes.iter().map(|a| a.axis.name()).collect();
+            ReplayError::NeverMeasured { columns: names.join(", ") }
+        })?;
     let group = Group { options, period, axes, start };
     match (axes.len(), pooled) {
         (1, _) => group.feed::<1, 1>(),
