@@ -1,21 +1,19 @@
 //! `fsb replay`: the parameters and velocities that a recorded flight tells.
 
-use anyhow::Context as _;
-use clap::{Args, ValueEnum};
+use super::{Failure, print_json, print_text};
+use clap::{Parser, ValueEnum};
 use fsb_core::Tuning;
 use fsb_core::readout::{Memory, Readout};
 use fsb_sim_host::replay::{AxisLog, ReplayOptions, ReplayResult, overview, page, run as replay, summary::Summary};
 use fsb_sim_host::report::{html::HowMade, write::write_files};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// Run a recorded flight through the f32 core: mass, moments of inertia, positions and velocities.
 ///
 /// LOG.csv is an axis log: a header; t [s], uniform; for each axis present among x, y, z, roll, pitch, yaw a position
 /// column of that name [m or rad, world frame, z up] and an input column fx, fy, fz [N, world frame] or taux, tauy, tauz
-/// [N m]: the mean input from this row to the next. An empty position is a missed measurement. Columns v<axis>_ref
-/// [m/s or rad/s] are compared with; other columns are ignored.
+/// [N m]: the mean input from this row to the next. An empty position is a missed measurement. Columns vx_ref,
+/// vy_ref, ... vyaw_ref [m/s or rad/s] are compared with; other columns are ignored.
 ///
 /// The axes x, y, z are pooled into one parameter, k = 1/m; roll, pitch and yaw each have their own, k = 1/I. There is no
 /// first guess: states are handed out from the moment k is valid, and k is valid once its standard deviation is known
@@ -26,11 +24,12 @@ use std::process::ExitCode;
 /// Each axis group starts at the first row that has a position of all its axes. At a high rate, where λ (or q) times the time
 /// step is below 1.3e-3, the identifier works on means of several samples.
 ///
-/// Exit status: 0 when the log was replayed, even if nothing in it became valid (the reason is then told, and the JSON has
-/// null values with "valid": false); 2 on bad input, and nothing is written then.
-#[derive(Args, Debug, Clone)]
+/// A log in which nothing becomes valid is replayed like any other, with exit status 0: the reason is told, and the JSON
+/// has null values with "valid": false.
+#[derive(Parser, Debug, Clone)]
 #[command(verbatim_doc_comment)]
-pub struct ReplayArgs {
+#[allow(rustdoc::broken_intra_doc_links, reason = "units in brackets; this is the help text")]
+pub struct Args {
     /// The axis log.
     #[arg(value_name = "LOG.csv")]
     log: PathBuf,
@@ -76,32 +75,23 @@ enum ReadoutArg {
 ///
 /// # Errors
 /// Bad input, named by file, line, column or option; a file that cannot be written. Nothing has been written then.
-pub fn run(args: &ReplayArgs) -> anyhow::Result<ExitCode> {
-    let log = AxisLog::read(&args.log)?;
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let log = AxisLog::read(&args.log).map_err(|error| Failure::Usage(error.to_string()))?;
     let options = args.options();
     let result = replay(&options, &log).map_err(|error| {
-        let concerns_log = error.concerns_log();
-        let error = anyhow::Error::new(error);
-        if concerns_log { error.context(args.log.display().to_string()) } else { error }
+        let file = if error.concerns_log() { format!("{}: ", args.log.display()) } else { String::new() };
+        Failure::Usage(format!("{file}{error}"))
     })?;
     if let Some(directory) = &args.out {
         let files = page::files(&result, &log, args.how_made(&options))?;
-        let written = write_files(directory, &files)?;
-        for path in written {
+        for path in write_files(directory, &files)? {
             eprintln!("wrote {}", path.display());
         }
     }
     for line in remarks(&result, &log) {
         eprintln!("fsb: {line}");
     }
-    let mut text = if args.json {
-        serde_json::to_string(&Summary::from(&result))?
-    } else {
-        overview::table(&result).to_text().trim_end().to_owned()
-    };
-    text.push('\n');
-    std::io::stdout().lock().write_all(text.as_bytes()).context("cannot write to stdout")?;
-    Ok(ExitCode::SUCCESS)
+    if args.json { print_json(&Summary::from(&result)) } else { print_text(&overview::table(&result).to_text()) }
 }
 
 /// What a reader should know and the result itself does not say.
@@ -115,7 +105,7 @@ fn remarks(result: &ReplayResult, log: &AxisLog) -> Vec<String> {
     all
 }
 
-impl ReplayArgs {
+impl Args {
     fn options(&self) -> ReplayOptions {
         let tuning = |lambda: f64, q: Option<f64>| match q {
             Some(q) => Tuning { lambda, q },

@@ -15,7 +15,7 @@ pub enum ReplayError {
         cause: ConfigError,
         /// The options refused.
         options: Box<ReplayOptions>,
-        /// The time step of the log [s].
+        /// The time step of the log \[s\].
         period: f64,
     },
     /// g is not a finite number.

@@ -6,10 +6,10 @@ use super::result::ReplayResult;
 use super::summary::about;
 use std::fmt::Write as _;
 
-/// `estimates.csv`: `t`; per axis `<axis>_hat` [m or rad] and `<axis>_rate_hat` [m/s or rad/s]; `mass_hat` and `mass_sd`
-/// [kg] if a translational axis is present; `inertia_<x, y or z>_hat` and `_sd` [kg m²] of the rotational ones.
+/// `estimates.csv`: `t`; per axis `<axis>_hat` \[m or rad\] and `<axis>_rate_hat` \[m/s or rad/s\]; `mass_hat` and `mass_sd`
+/// \[kg\] if a translational axis is present; `inertia_<x, y or z>_hat` and `_sd` \[kg m²\] of the rotational ones.
 ///
-/// Empty where not valid. Each number has the fewest digits that give back the same f32; `t` [s] is rounded to 1e-9.
+/// Empty where not valid. Each number has the fewest digits that give back the same f32; `t` \[s\] is rounded to 1e-9.
 pub fn to_csv(result: &ReplayResult, log: &AxisLog) -> String {
     let mut parameters: Vec<(String, &ParameterTrace)> = Vec::new();
     parameters.extend(result.mass.as_ref().map(|trace| ("mass".to_owned(), trace)));

@@ -7,18 +7,18 @@ use fsb_core::{ConfigError, Estimator, EstimatorConfig};
 /// What one axis measured and was driven by.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Column<'a> {
-    /// Position at each sample [m or rad]; `None` where it is missing.
+    /// Position at each sample \[m or rad\]; `None` where it is missing.
     pub position: &'a [Option<f64>],
-    /// Mean input from each sample to the next [N or N m].
+    /// Mean input from each sample to the next \[N or N m\].
     pub input: &'a [f64],
 }
 
 /// What an axis's observer handed out, per sample.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AxisTrace {
-    /// Position [m or rad] and velocity; `None` where no state may be used.
+    /// Position \[m or rad\] and velocity; `None` where no state may be used.
     pub state: Vec<Option<AxisState>>,
-    /// Innovation y - ŷ⁻ [m or rad]; `None` where nothing was measured or no state may be used.
+    /// Innovation y - ŷ⁻ \[m or rad\]; `None` where nothing was measured or no state may be used.
     pub innovation: Vec<Option<f32>>,
 }
 

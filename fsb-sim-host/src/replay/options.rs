@@ -7,11 +7,11 @@ use fsb_core::{EstimatorConfig, Tuning};
 /// How a log is replayed. Plain data; [`super::run`] judges it together with the period of the log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReplayOptions {
-    /// λ and q of the identifier [1/s], (17) and (28). λT and qT within 1e-6..=1, T being the time step of the log.
+    /// λ and q of the identifier \[1/s\], (17) and (28). λT and qT within 1e-6..=1, T being the time step of the log.
     pub identifier: Tuning,
-    /// λ and q of the observer [1/s], within the same range.
+    /// λ and q of the observer \[1/s\], within the same range.
     pub observer: Tuning,
-    /// g [m/s²]: z points up and falls with -g. Finite, magnitude up to 1e6.
+    /// g \[m/s²\]: z points up and falls with -g. Finite, magnitude up to 1e6.
     pub gravity: f64,
     /// How k is read out.
     pub readout: Readout,
@@ -32,7 +32,7 @@ impl Default for ReplayOptions {
     }
 }
 
-/// The core rejects positions and inputs beyond this [m, rad, N or N m].
+/// The core rejects positions and inputs beyond this \[m, rad, N or N m\].
 pub(super) const LIMIT: f64 = 1e6;
 
 /// The least λ times the identifier's period that a replay uses: below it samples are averaged into blocks.
@@ -47,7 +47,7 @@ impl ReplayOptions {
         ParameterRule { min: 1e-6, max: 1e9, max_relative_sd: 0.05 }
     }
 
-    /// Samples per block of the identifier at the time step `period` [s]: as many as keep max(λ, q) times the block near
+    /// Samples per block of the identifier at the time step `period` \[s\]: as many as keep max(λ, q) times the block near
     /// 2e-3, where f32 is at its best (1 up to 1 kHz at λ = 2).
     pub fn block(&self, period: f64) -> u32 {
         let fastest = self.identifier.lambda.max(self.identifier.q) * period;
@@ -55,7 +55,7 @@ impl ReplayOptions {
         if fastest > 0.0 { (FINEST_STEP / fastest).round().clamp(1.0, 65_536.0) as u32 } else { 1 }
     }
 
-    /// The core's configuration for axes with the drifts `drift` in a log of the time step `period` [s].
+    /// The core's configuration for axes with the drifts `drift` in a log of the time step `period` \[s\].
     pub(super) fn config<const N: usize, const P: usize>(&self, period: f64, drift: [f64; N]) -> EstimatorConfig<N, P> {
         EstimatorConfig {
             block: self.block(period),

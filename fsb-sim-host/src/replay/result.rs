@@ -9,7 +9,7 @@ use fsb_core::ConfigError;
 /// What a replay gave. Every trace has one entry per sample of the log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReplayResult {
-    /// Time step [s].
+    /// Time step \[s\].
     pub period: f64,
     /// Rows of the log.
     pub samples: usize,
@@ -17,7 +17,7 @@ pub struct ReplayResult {
     pub missed: usize,
     /// Measurements and inputs that the core rejected because they are beyond 1e6 in magnitude.
     pub rejected: usize,
-    /// k = 1/m [1/kg], shared by the translational axes; `None` where the log has none.
+    /// k = 1/m \[1/kg\], shared by the translational axes; `None` where the log has none.
     pub mass: Option<ParameterTrace>,
     /// The axes present, in the order x, y, z, roll, pitch, yaw.
     pub axes: Vec<AxisResult>,
@@ -30,9 +30,9 @@ pub struct AxisResult {
     pub axis: Axis,
     /// What the observer handed out: with the pooled k̂ on a translational axis, with the axis's own on a rotational one.
     pub trace: AxisTrace,
-    /// k̂ from this axis alone [1/kg or 1/(kg m²)].
+    /// k̂ from this axis alone \[1/kg or 1/(kg m²)\].
     pub own: ParameterTrace,
-    /// Root mean square of v̂ minus the log's reference where both exist [m/s or rad/s]; `None` where they never do.
+    /// Root mean square of v̂ minus the log's reference where both exist \[m/s or rad/s\]; `None` where they never do.
     pub velocity_rms_error: Option<f64>,
 }
 

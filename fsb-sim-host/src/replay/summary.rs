@@ -7,24 +7,24 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 /// The JSON object of `fsb replay --json`. Values are those at the last sample; null where not valid.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Summary {
-    /// Time step [s].
+    /// Time step \[s\].
     pub period_s: f64,
     /// Rows of the log.
     pub samples: usize,
     /// Empty positions, over all axes.
     pub missed: usize,
-    /// From x, y and z pooled [kg]; null where the log has no translational axis.
+    /// From x, y and z pooled \[kg\]; null where the log has no translational axis.
     pub mass: Option<Inverse>,
     /// Each axis by itself.
     pub axes: Named<AxisSummary>,
-    /// Of the rotational axes present [kg m²], by the names x, y, z.
+    /// Of the rotational axes present \[kg m²\], by the names x, y, z.
     pub inertia: Named<Inverse>,
 }
 
 /// 1/k̂ and its standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Inverse {
-    /// Mass [kg] or moment of inertia [kg m²].
+    /// Mass \[kg\] or moment of inertia \[kg m²\].
     pub value: Option<f32>,
     /// Its standard deviation as far as measurement noise causes it.
     pub sd: Option<f32>,
@@ -35,13 +35,13 @@ pub struct Inverse {
 /// k̂ from one axis alone.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct AxisSummary {
-    /// k̂ [1/kg or 1/(kg m²)].
+    /// k̂ \[1/kg or 1/(kg m²)\].
     pub k: Option<f32>,
     /// Its standard deviation.
     pub k_sd: Option<f32>,
     /// Whether it may be used.
     pub valid: bool,
-    /// Root mean square of v̂ minus the reference [m/s or rad/s]; null without a reference.
+    /// Root mean square of v̂ minus the reference \[m/s or rad/s\]; null without a reference.
     pub velocity_rms_error: Option<f64>,
 }
 
