@@ -39,7 +39,7 @@ impl Schedule {
         // Blocks of ten: axes at 9, 0, 1 and 2, 3, 4 for a turn of 3; weights at 5 and 8; 7 and 6 are left.
         // Single samples: axes at 0, 1, 2 and 3, 4, 5; 6 and 7 are left.
         let gains_at = match (block, turn) {
-            (1, turn) if turn == 0 => 6,
+            (1, 0) => 6,
             (1, turn) => (15 - turn % 8) % 8,
             (_, 0) => round.saturating_sub(3),
             (_, turn) => (2 * round - 4 - turn % round) % round.max(1),

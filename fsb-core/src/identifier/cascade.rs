@@ -37,8 +37,8 @@ impl Cascade {
     pub fn step_folded(&mut self, y: f32, s: f32, design: &IdentifierDesign, at: &Coefficients) {
         let c = design.c;
         self.x3.add_folded(c * (at.b3 * y + KEEP_NORMAL - self.x3.total()));
-        self.x2.add_folded(c * (at.b2 * y + self.x3.total() - self.x2.total()));
-        self.x1.add_folded(c * (at.b1 * y + self.x2.total() - self.x1.total()));
+        self.x2.add_folded(c * (at.b2 * y + self.x3.total() + KEEP_NORMAL - self.x2.total()));
+        self.x1.add_folded(c * (at.b1 * y + self.x2.total() + KEEP_NORMAL - self.x1.total()));
         self.x6.add_folded(c * (at.g * (s * design.scale) + KEEP_NORMAL - self.x6.total()));
         self.x5.add_folded(c * (self.x6.total() - self.x5.total()));
         self.x4.add_folded(c * (self.x5.total() - self.x4.total()));

@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `paper` | Section V with its table, figures and statistics; also what runs without arguments |
+//! | `replay` | a recorded flight through the core |
 //! | `efficiency` | the spread of k̂ against the Cramér-Rao bound |
 //! | `soak` | hours of simulated flight beside the f64 twin |
 //!
@@ -13,6 +14,7 @@
 
 mod efficiency;
 mod paper;
+mod replay;
 mod soak;
 
 use std::io::{self, Write};
@@ -39,6 +41,8 @@ enum Command {
     #[command(after_help = EXIT_STATUS)]
     Paper(paper::Args),
     #[command(after_help = EXIT_STATUS)]
+    Replay(replay::Args),
+    #[command(after_help = EXIT_STATUS)]
     Efficiency(efficiency::Args),
     #[command(after_help = EXIT_STATUS)]
     Soak(soak::Args),
@@ -63,6 +67,7 @@ impl<E: Into<anyhow::Error>> From<E> for Failure {
 pub fn run() -> ExitCode {
     let done = match Cli::parse().command.unwrap_or_else(|| Command::Paper(paper::Args::default())) {
         Command::Paper(args) => paper::run(&args),
+        Command::Replay(args) => replay::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Efficiency(args) => efficiency::run(&args),
         Command::Soak(args) => soak::run(&args),
     };
