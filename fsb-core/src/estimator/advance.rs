@@ -8,7 +8,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The quick way: everybody measured, gains that hardly change.
     #[inline(always)]
     pub(super) fn advance_steadily(&mut self, y: &[f32; N]) {
-        self.observer.count = self.observer.count.saturating_add(1);
+        self.observer.tick();
         self.substep = 0;
         let gains = self.observer.gains;
         if self.design.common.block_length == 1 {
@@ -36,7 +36,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         let m1 = self.observer.gains.m1();
         let mut gains = self.observer.gains;
         if self.started {
-            self.observer.count = self.observer.count.saturating_add(1);
+            self.observer.tick();
             if !self.observer.striding {
                 gains = self.observer.next(&self.design.common);
             }
@@ -156,10 +156,30 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     fn serve(&mut self, index: usize) {
         let common = &self.design.common;
         let parameter_index = EstimatorDesign::<N, P>::parameter_of(index);
+        let (Some(axis), Some(parameter), Some(rule)) =
+            (self.axes.get_mut(index), self.parameters.get_mut(parameter_index), self.design.rule.get(parameter_index))
+        else {
+            return;
+        };
+        axis.observer.fold();
+        if common.block_length == 1 {
+            axis.cascade.fold();
+        }
+        if !parameter.stale && axis.source == Source::Identified && parameter.read_on(rule) {
+            axis.model.follow(parameter.newest_value(), common.period2);
+        } else {
+            self.serve_carefully(index);
+        }
+    }
+
+    /// The same, where the variance has to be read or the status or the source of the prediction may change.
+    #[inline(never)]
+    fn serve_carefully(&mut self, index: usize) {
+        let common = &self.design.common;
+        let parameter_index = EstimatorDesign::<N, P>::parameter_of(index);
         let (Some(own), Some(parameter)) = (self.design.own(index), self.parameters.get_mut(parameter_index)) else {
             return;
         };
-        let settled = self.observer.count - self.identifier.began >= common.parameter_settle;
         if parameter.stale {
             let per_stride = common.covariance.per_stride;
             let mut variance = Some(0.0);
@@ -171,10 +191,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             parameter.read_variance(variance, common.identifier.scale2());
         }
         let Some(axis) = self.axes.get_mut(index) else { return };
-        axis.observer.fold();
-        if common.block_length == 1 {
-            axis.cascade.fold();
-        }
+        let settled = self.observer.count - self.identifier.began >= common.parameter_settle;
         parameter.read(settled, own.rule);
         let clocks = Clocks { identifier: &self.identifier, observer: &self.observer };
         axis.follow(parameter, &own, clocks, common);
@@ -199,6 +216,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
                         let clocks = Clocks { identifier: &self.identifier, observer: &self.observer };
                         axis.change_source(parameter, &own, clocks, common);
                     }
+                    axis.decide_use();
                 }
                 continue;
             }
@@ -215,6 +233,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
                 axis.measured = false;
                 axis.present = false;
                 axis.observer.start(0.0);
+                axis.decide_use();
                 *y = 0.0;
             }
             self.all_measured &= axis.measured;

@@ -60,6 +60,8 @@ pub(super) struct Axis {
     pub noise: NoiseLevel,
     /// The measurement count from which on the state may be handed out, if there is something to predict it with.
     pub settled_at: u32,
+    /// The same, or out of reach where there is nothing to predict it with.
+    pub usable_at: u32,
     /// Measurements replaced in the block in progress.
     pub missed: u16,
     pub source: Source,
@@ -74,7 +76,13 @@ pub(super) struct Axis {
 impl Axis {
     /// Before the first measurement.
     pub fn start(noise: NoiseLevel) -> Self {
-        Self { noise, ..Self::default() }
+        Self { noise, usable_at: u32::MAX, ..Self::default() }
+    }
+
+    /// To be called when the source, `settled_at` or `measured` has changed.
+    pub fn decide_use(&mut self) {
+        let usable = self.measured && matches!(self.source, Source::Identified | Source::Nominal);
+        self.usable_at = if usable { self.settled_at } else { u32::MAX };
     }
 
     /// The observer's step with a measurement, or with what stands in for it.
@@ -195,6 +203,11 @@ impl Axis {
 
     #[inline(never)]
     pub fn change_source(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
+        self.choose_source(parameter, own, clocks, common);
+        self.decide_use();
+    }
+
+    fn choose_source(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
         let (k, source) = if let Some(k) = parameter.valid_value() {
             if self.present && !self.seed(k, own, clocks, common) {
                 return;
@@ -241,6 +254,7 @@ impl Axis {
             moments: self.moments,
             innovation_before: self.innovation_before,
             settled_at: self.settled_at,
+            usable_at: self.usable_at,
             source: self.source,
             measured: self.measured,
             ..Self::start(noise)

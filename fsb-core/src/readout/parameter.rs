@@ -78,7 +78,7 @@ impl Default for ParameterRule {
 
 impl CheckedRule {
     /// Accepts nothing.
-    pub const NEVER: Self = Self { min: f32::MAX, max: 0.0, relative_variance: 0.0 };
+    pub const NEVER: Self = Self { min: f32::MAX, max: 0.0, relative_variance: 0.0, limit_to_stay: 0.0 };
 }
 
 impl ParameterRule {
@@ -94,7 +94,13 @@ impl ParameterRule {
         if share > 1e6 {
             return Err(ConfigError::OutOfRange("parameter.max_relative_sd"));
         }
-        Ok(CheckedRule { min: min as f32, max: self.max as f32, relative_variance: (share * share) as f32 })
+        let relative_variance = (share * share) as f32;
+        Ok(CheckedRule {
+            min: min as f32,
+            max: self.max as f32,
+            relative_variance,
+            limit_to_stay: HYSTERESIS * relative_variance,
+        })
     }
 }
 
@@ -105,6 +111,8 @@ pub(crate) struct CheckedRule {
     min: f32,
     max: f32,
     relative_variance: f32,
+    /// The same for a parameter that is valid already.
+    limit_to_stay: f32,
 }
 
 /// One parameter: its sums, pooled over the axes that share it, and what has been read out of them.
@@ -173,20 +181,34 @@ impl ParameterState {
         }
     }
 
-    /// The quotient from the sums as they are, and its status. Folds the sums.
+    /// The newest quotient; zero before there is any.
     #[inline(always)]
-    pub fn read(&mut self, settled: bool, rule: &CheckedRule) {
+    pub const fn newest_value(&self) -> f32 {
+        self.value
+    }
+
+    /// The quotient of a parameter that is valid and stays so. False where it has to be [`read`](Self::read) instead.
+    #[inline(always)]
+    pub fn read_on(&mut self, rule: &CheckedRule) -> bool {
         self.ratio.fold();
-        let information = self.ratio.denominator();
-        if information > 0.0 {
-            let value = self.ratio.numerator() / information;
+        let value = self.ratio.numerator_total() / self.ratio.denominator_total();
+        let limit = rule.limit_to_stay * (value * value);
+        let stays =
+            self.status == ParameterStatus::Valid && value >= rule.min && value <= rule.max && self.variance <= limit;
+        if stays {
             self.value = value;
+        }
+        stays
+    }
+
+    /// The quotient from the sums as they are, and its status.
+    pub fn read(&mut self, settled: bool, rule: &CheckedRule) {
+        if self.ratio.denominator() > 0.0 && self.read_on(rule) {
+            return;
+        }
+        if self.ratio.denominator() > 0.0 {
+            self.value = self.ratio.numerator() / self.ratio.denominator();
             self.read = true;
-            let limit = HYSTERESIS * rule.relative_variance * (value * value);
-            let stays = value >= rule.min && value <= rule.max && self.variance <= limit;
-            if stays && self.status == ParameterStatus::Valid {
-                return;
-            }
         }
         self.judge(settled, rule);
     }

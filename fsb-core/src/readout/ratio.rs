@@ -84,6 +84,18 @@ impl Ratio {
         self.denominator.fold();
     }
 
+    /// Σ ω ẑ2, right after folding.
+    #[inline(always)]
+    pub(crate) const fn numerator_total(&self) -> f32 {
+        self.numerator.total()
+    }
+
+    /// Σ ω ẑ0, right after folding.
+    #[inline(always)]
+    pub(crate) const fn denominator_total(&self) -> f32 {
+        self.denominator.total()
+    }
+
     /// Σ ω ẑ2.
     pub const fn numerator(&self) -> f32 {
         self.numerator.value()
