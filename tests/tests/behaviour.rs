@@ -1,0 +1,330 @@
+//! What is not valid is not handed out, and what is wrong with an input does no harm.
+
+use fsb_core::estimator::StateStatus;
+use fsb_core::readout::{ParameterStatus, Readout};
+use fsb_core::{Estimator, EstimatorConfig};
+use fsb_sim_host::plant::{Motion, Recording, RecordingConfig, record};
+
+const PERIOD: f64 = 1e-3;
+
+fn flight(samples: usize) -> Recording {
+    let motion = Motion { centre: 3.0, amplitude: 1.0, frequency: 1.3 };
+    record(&RecordingConfig { period: PERIOD, samples, drift: 0.0, motion, ..Default::default() })
+}
+
+fn config<const N: usize, const P: usize>() -> EstimatorConfig<N, P> {
+    EstimatorConfig { noise_sd: Some(1e-7), ..EstimatorConfig::new(PERIOD) }
+}
+
+fn debug<const N: usize, const P: usize>(estimator: &Estimator<N, P>) -> String {
+    format!("{estimator:?}")
+}
+
+/// Runs `estimator` over samples `range` of `flight`, the same on all axes.
+fn fly<const N: usize, const P: usize>(
+    estimator: &mut Estimator<N, P>,
+    flight: &Recording,
+    range: std::ops::Range<usize>,
+) {
+    for n in range {
+        estimator.measure(&[Some(flight.positions[n] as f32); N]).unwrap();
+        estimator.apply(&[flight.forces[n] as f32; N]);
+    }
+}
+
+/// ε of the parameter and ε of the state, to the tick; nothing before the first measurement.
+#[test]
+fn nothing_is_handed_out_before_its_time() {
+    for substeps in [1, 4] {
+        for block in [1, 8] {
+            let flight = flight(2000);
+            let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig {
+                substeps,
+                block,
+                nominal: [Some(1.0)],
+                parameter_settle: 0.2,
+                state_settle: 0.1,
+                ..config()
+            })
+            .unwrap();
+            assert_eq!(
+                (estimator.parameters(), estimator.states(), estimator.state_sd()[0].is_some()),
+                ([None], [None], true)
+            );
+            assert_eq!(estimator.state_status(), [StateStatus::NotMeasured]);
+            assert_eq!(estimator.parameter_status(), [ParameterStatus::Settling]);
+            let mut valid_from = None;
+            for n in 0..2000 {
+                let t = n as f64 * PERIOD;
+                if n % substeps as usize == 0 {
+                    estimator.measure(&[Some(flight.positions[n] as f32)]).unwrap();
+                }
+                let (parameter, state) = (estimator.parameters()[0], estimator.states()[0]);
+                assert!(parameter.is_none() || t >= 0.2, "a parameter at {t}");
+                assert_eq!(state.is_some(), t >= 0.1 - 1e-9, "state at {t}: {state:?}");
+                let status = estimator.state_status()[0];
+                assert_eq!(state.is_some(), matches!(status, StateStatus::Nominal | StateStatus::Identified));
+                assert_eq!(parameter.is_some(), estimator.parameter_status() == [ParameterStatus::Valid]);
+                assert_eq!(status == StateStatus::Identified, parameter.is_some(), "at {t}: {status}");
+                if parameter.is_some() {
+                    valid_from.get_or_insert(t);
+                }
+                estimator.apply(&[flight.forces[n] as f32]);
+            }
+            let late = f64::from(substeps * block) * PERIOD;
+            let valid_from = valid_from.unwrap();
+            assert!(valid_from <= 0.2 + late + 1e-9, "substeps {substeps}, block {block}: from {valid_from}");
+        }
+    }
+}
+
+/// Zero input: the parameter is unexcited for ever, and without a nominal one no state is handed out.
+#[test]
+fn without_input_nothing_is_said() {
+    let mut estimator = Estimator::<1, 1>::new(&config()).unwrap();
+    for n in 0..20_000 {
+        // Drifts at 0.1 m/s.
+        estimator.measure(&[Some((3.0 + 1e-4 * f64::from(n)) as f32)]).unwrap();
+        assert_eq!(estimator.parameters(), [None]);
+        assert_eq!(estimator.parameter_status(), [ParameterStatus::Unexcited]);
+        assert_eq!(estimator.states(), [None], "at {n}");
+        estimator.apply(&[0.0]);
+    }
+    assert_eq!(estimator.state_status(), [StateStatus::NoParameter]);
+}
+
+/// The paper's read-out on an axis that rests and is not pushed.
+#[test]
+#[ignore = "defect: what keeps the cascades normal (1e-20) passes for excitation: k̂ = 1, valid with sd 0, out of nothing"]
+fn without_input_the_absolute_ratio_says_nothing() {
+    for moving in [0.0, 1e-4] {
+        let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig {
+            readout: Readout::AbsoluteRatio,
+            ..EstimatorConfig::new(PERIOD)
+        })
+        .unwrap();
+        for n in 0..5000 {
+            estimator.measure(&[Some((3.0 + moving * f64::from(n)) as f32)]).unwrap();
+            assert_eq!(estimator.parameters(), [None], "moving {moving}, measurement {n}");
+            estimator.apply(&[0.0]);
+        }
+        assert_eq!(estimator.parameter_status(), [ParameterStatus::Unexcited], "moving {moving}");
+    }
+}
+
+/// When k̂ is valid [ms after take-off]: a vehicle that rests under the last digits of a controller that is switched off, then flies from rest.
+fn valid_after_dust(dust: f32) -> Option<usize> {
+    let motion = Motion { centre: 3.0, amplitude: 1.0, frequency: 1.3 };
+    let flight = record(&RecordingConfig { drift: 0.0, velocity: 0.0, motion, ..Default::default() });
+    let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig::new(PERIOD)).unwrap();
+    let rest = flight.positions[0];
+    for n in 0..3000 {
+        estimator.measure(&[Some((rest + 1e-3 * (1.7 * f64::from(n)).sin()) as f32)]).unwrap();
+        estimator.apply(&[if n % 2 == 0 { dust } else { dust / 2.0 }]);
+    }
+    for n in 0..20_000 {
+        estimator.measure(&[Some((flight.positions[n] + 1e-3 * (1.7 * n as f64).sin()) as f32)]).unwrap();
+        if estimator.parameters()[0].is_some() {
+            return Some(n);
+        }
+        estimator.apply(&[flight.forces[n] as f32]);
+    }
+    None
+}
+
+/// What a weak input says of k is worth little, and is outweighed by what comes.
+#[test]
+fn dust_before_the_flight() {
+    for dust in [0.0, 1e-3, 1e-6, 1e-8] {
+        let valid = valid_after_dust(dust).expect("valid in 20 s");
+        println!("{dust} N before the flight: valid {valid} ms after take-off");
+        assert!(valid < 1000);
+    }
+}
+
+#[test]
+#[ignore = "defect: a quotient of 1e13 from a tiny input drives the learned noise level to where it takes minutes to come back from"]
+fn finest_dust_before_the_flight() {
+    assert!(valid_after_dust(1e-13).is_some());
+}
+
+/// An axis never measured is told so, and does the others no harm.
+#[test]
+fn an_axis_never_measured() {
+    let flight = flight(2000);
+    let k = RecordingConfig::default().k as f32;
+    let mut pooled = Estimator::<3, 1>::new(&config()).unwrap();
+    let mut apart = Estimator::<3, 3>::new(&config()).unwrap();
+    for n in 0..2000 {
+        let (y, f) = (Some(flight.positions[n] as f32), flight.forces[n] as f32);
+        pooled.measure(&[y, None, y]).unwrap();
+        apart.measure(&[y, None, y]).unwrap();
+        pooled.apply(&[f; 3]);
+        apart.apply(&[f; 3]);
+    }
+    for status in [pooled.state_status(), apart.state_status()] {
+        assert_eq!(status, [StateStatus::Identified, StateStatus::NotMeasured, StateStatus::Identified]);
+    }
+    assert!(pooled.states()[1].is_none() && apart.states()[1].is_none() && apart.parameters()[1].is_none());
+    for found in [pooled.parameters()[0], apart.parameters()[0], apart.parameters()[2]] {
+        assert!((found.unwrap().value / k - 1.0).abs() < 1e-6);
+    }
+    assert_eq!((pooled.counters().missed, pooled.counters().rejected_measurements), (2000, 0));
+}
+
+/// The first measurement may be the one that is lost: identification must begin with the next.
+#[test]
+#[ignore = "defect: an axis without a sample at the first instant of its first block never takes part until reset_identifier"]
+fn a_lost_first_measurement_is_not_the_end() {
+    let flight = flight(3000);
+    for first in [None, Some(f32::NAN)] {
+        let mut estimator = Estimator::<1, 1>::new(&config()).unwrap();
+        estimator.measure(&[first]).unwrap();
+        estimator.apply(&[flight.forces[0] as f32]);
+        fly(&mut estimator, &flight, 1..3000);
+        let status = estimator.parameter_status();
+        assert_eq!(status, [ParameterStatus::Valid], "first measurement {first:?}: {status:?} after 3 s");
+    }
+}
+
+/// NaN, infinity and what is beyond the limit count and do nothing else than being missed.
+#[test]
+fn rejected_measurements_are_missed_ones() {
+    let flight = flight(3000);
+    let limited = EstimatorConfig { position_limit: 50.0, ..config::<1, 1>() };
+    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 50.01, -1e30, f32::MAX];
+    let (mut rejecting, mut missing) = (Estimator::new(&limited).unwrap(), Estimator::new(&limited).unwrap());
+    let mut count = 0;
+    for n in 0..3000 {
+        let good = Some(flight.positions[n] as f32);
+        let is_bad = n > 100 && n % 3 == 0;
+        let given = if is_bad { Some(bad[n / 3 % bad.len()]) } else { good };
+        rejecting.measure(&[given]).unwrap();
+        missing.measure(&[if is_bad { None } else { good }]).unwrap();
+        count += u32::from(is_bad);
+        assert_eq!(rejecting.states(), missing.states());
+        assert_eq!(rejecting.parameters(), missing.parameters());
+        rejecting.apply(&[flight.forces[n] as f32]);
+        missing.apply(&[flight.forces[n] as f32]);
+    }
+    let (r, m) = (rejecting.counters(), missing.counters());
+    assert_eq!((r.missed, r.rejected_measurements, r.rejected_inputs), (count, count, 0));
+    assert_eq!((m.missed, m.rejected_measurements), (count, 0));
+    assert!((f64::from(rejecting.parameters()[0].unwrap().value) * 1.3 - 1.0).abs() < 2e-6);
+}
+
+/// A rejected input is the last good one again, in either call; on the plant that is what the actuator does, too.
+#[test]
+fn rejected_inputs_are_the_last_good_one() {
+    let limited = EstimatorConfig { input_limit: 100.0, ..config::<1, 1>() };
+    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 100.1, -1e30];
+    let (mut rejecting, mut repeating) = (Estimator::new(&limited).unwrap(), Estimator::new(&limited).unwrap());
+    let flight = flight(2000);
+    let (mut good, mut count) = (0.0, 0);
+    for n in 0..2000 {
+        let y = [Some(flight.positions[n] as f32)];
+        rejecting.measure(&y).unwrap();
+        repeating.measure(&y).unwrap();
+        if n % 4 == 2 {
+            count += 1;
+            match n % 3 {
+                0 => rejecting.apply(&[bad[n % bad.len()]]),
+                1 => rejecting.apply_ramp(&[bad[n % bad.len()]], &[1.0]),
+                _ => rejecting.apply_ramp(&[1.0], &[bad[n % bad.len()]]),
+            }
+        } else {
+            good = flight.forces[n] as f32;
+            rejecting.apply(&[good]);
+        }
+        repeating.apply(&[good]);
+        assert_eq!((rejecting.states(), rejecting.parameters()), (repeating.states(), repeating.parameters()));
+    }
+    assert_eq!(rejecting.counters().rejected_inputs, count);
+    assert_eq!(repeating.counters().rejected_inputs, 0);
+}
+
+/// A measurement out of step is refused, says by how much, and leaves no trace.
+#[test]
+fn out_of_step_changes_nothing() {
+    let flight = flight(500);
+    let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig { substeps: 5, block: 3, ..config() }).unwrap();
+    for n in 0..500 {
+        let y = [Some(flight.positions[n] as f32)];
+        if n % 5 == 0 {
+            estimator.measure(&y).unwrap();
+        }
+        let before = debug(&estimator);
+        let refused = estimator.measure(&y).unwrap_err();
+        assert_eq!(refused.missing as usize, 5 - n % 5);
+        assert_eq!(debug(&estimator), before);
+        estimator.apply(&[flight.forces[n] as f32]);
+    }
+}
+
+/// Not calling `measure` where a measurement was due is the same as saying that there was none.
+#[test]
+fn a_measurement_not_given_is_a_missed_one() {
+    for (substeps, block) in [(1, 1), (1, 7), (4, 1)] {
+        let flight = flight(4000);
+        let config = EstimatorConfig { substeps, block, ..config::<1, 1>() };
+        let (mut silent, mut telling) = (Estimator::new(&config).unwrap(), Estimator::new(&config).unwrap());
+        for n in 0..4000 {
+            let instant = n / substeps as usize;
+            if n % substeps as usize == 0 {
+                let y = [Some(flight.positions[n] as f32)];
+                if instant % 3 == 1 {
+                    telling.measure(&[None]).unwrap();
+                } else {
+                    silent.measure(&y).unwrap();
+                    telling.measure(&y).unwrap();
+                }
+            }
+            silent.apply(&[flight.forces[n] as f32]);
+            telling.apply(&[flight.forces[n] as f32]);
+            assert_eq!(debug(&silent), debug(&telling), "substeps {substeps}, block {block}, tick {n}");
+        }
+        assert!(silent.counters().missed > 300);
+    }
+}
+
+/// After a reset nothing of the past is left but the counters.
+#[test]
+fn reset_is_new() {
+    let flight = flight(1500);
+    let config = EstimatorConfig { block: 4, turn: 2, nominal: [Some(2.0); 2], ..config::<2, 2>() };
+    let mut estimator = Estimator::new(&config).unwrap();
+    let new = debug(&estimator);
+    fly(&mut estimator, &flight, 0..1500);
+    assert_ne!(debug(&estimator), new);
+    estimator.reset();
+    assert_eq!(debug(&estimator), new);
+    fly(&mut estimator, &flight, 0..10);
+    estimator.measure(&[None; 2]).unwrap();
+    estimator.apply(&[f32::NAN; 2]);
+    let counters = estimator.counters();
+    estimator.reset();
+    assert_eq!((counters.missed, counters.rejected_inputs), (2, 2));
+    assert_eq!(estimator.counters(), counters);
+}
+
+/// `reset_identifier`: k̂ is anew, the observer goes on.
+#[test]
+fn reset_identifier_keeps_the_observer() {
+    let flight = flight(3000);
+    let k = RecordingConfig::default().k;
+    let config = EstimatorConfig { nominal: [Some(k)], parameter_settle: 0.1, ..config::<1, 1>() };
+    let mut estimator = Estimator::new(&config).unwrap();
+    fly(&mut estimator, &flight, 0..1500);
+    assert!(estimator.parameters()[0].is_some());
+    estimator.reset_identifier();
+    for n in 1500..3000 {
+        estimator.measure(&[Some(flight.positions[n] as f32)]).unwrap();
+        let expected = if n < 1600 { StateStatus::Nominal } else { StateStatus::Identified };
+        assert_eq!((estimator.state_status()[0], estimator.parameters()[0].is_some()), (expected, n >= 1600), "{n}");
+        let velocity = f64::from(estimator.states()[0].unwrap().velocity);
+        assert!((velocity - flight.velocities[n]).abs() < 1e-5, "{n}: {velocity}");
+        estimator.apply(&[flight.forces[n] as f32]);
+    }
+    let found = f64::from(estimator.parameters()[0].unwrap().value);
+    assert!((found / k - 1.0).abs() < 1e-6, "{found}");
+}
