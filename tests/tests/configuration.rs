@@ -201,8 +201,8 @@ const TRACKING: TrackingConfig =
 
 #[test]
 fn tracking_controller() {
-    type Set = fn(&mut TrackingConfig, f64);
-    let cases: [(&str, Set, Vec<(f64, ConfigError)>); 5] = [
+    type Case = (&'static str, fn(&mut TrackingConfig, f64), Vec<(f64, ConfigError)>);
+    let cases: [Case; 5] = [
         ("kp", |c, x| c.kp = x, positive("kp")),
         ("kd", |c, x| c.kd = x, positive("kd")),
         ("drift", |c, x| c.drift = x, vec![(f64::NAN, NonFinite("drift")), (f64::INFINITY, NonFinite("drift"))]),
