@@ -4,6 +4,9 @@ use fsb_core::estimator::StateStatus;
 use fsb_core::readout::{ParameterStatus, Readout};
 use fsb_core::{Estimator, EstimatorConfig};
 use fsb_sim_host::plant::{Motion, RecordingConfig, record};
+use rand::{RngExt, SeedableRng};
+use rand_distr::StandardNormal;
+use rand_pcg::Pcg64;
 
 const PERIOD: f64 = 1e-3;
 
@@ -42,18 +45,23 @@ fn without_input_the_absolute_ratio_says_nothing() {
     }
 }
 
-/// When k̂ is valid [ms after take-off]: a vehicle that rests under the last digits of a controller that is switched off, then flies from rest.
+/// When k̂ is valid [ms after take-off]: a vehicle that rests under the last digits of a controller that is switched off,
+/// then flies from rest. Noise of 1 mm.
 fn valid_after_dust(dust: f32) -> Option<usize> {
     let motion = Motion { centre: 3.0, amplitude: 1.0, frequency: 1.3 };
     let flight = record(&RecordingConfig { drift: 0.0, velocity: 0.0, motion, ..Default::default() });
     let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig::new(PERIOD)).unwrap();
-    let rest = flight.positions[0];
+    let mut rng = Pcg64::seed_from_u64(1);
+    let mut noisy = |y: f64| {
+        let noise: f64 = rng.sample(StandardNormal);
+        Some((y + 1e-3 * noise) as f32)
+    };
     for n in 0..3000 {
-        estimator.measure(&[Some((rest + 1e-3 * (1.7 * f64::from(n)).sin()) as f32)]).unwrap();
+        estimator.measure(&[noisy(flight.positions[0])]).unwrap();
         estimator.apply(&[if n % 2 == 0 { dust } else { dust / 2.0 }]);
     }
     for n in 0..20_000 {
-        estimator.measure(&[Some((flight.positions[n] + 1e-3 * (1.7 * n as f64).sin()) as f32)]).unwrap();
+        estimator.measure(&[noisy(flight.positions[n])]).unwrap();
         if estimator.parameters()[0].is_some() {
             return Some(n);
         }
