@@ -196,38 +196,61 @@ fn the_sampled_form_tends_to_the_paper_at_the_first_order() {
     }
 }
 
-/// The core takes the same course. From its twin on the same f32 inputs it differs by rounding: a few ulps of the signals,
-/// and in the velocity what half an ulp of the observer's m1 = 1 - l1 makes of the innovation, |r| 2^-25 a sample. The
-/// assumed parameter makes r large here, up to 1 m.
+/// The core takes the same course. ẑ2 and ẑ0 are its twin's on the same f32 inputs to a few ulps, so what is shown for them
+/// above holds for them as they are. The states are not: the core holds its gains for some samples, which leaves an estimate
+/// with the true k exact and is one more difference of the order of T with another. They halve with T once those samples
+/// are short against 1/λ and 1/q, from 400 Hz on.
 #[test]
-fn the_core_tends_to_the_paper_with_its_twin() {
+fn the_core_tends_to_the_paper_at_the_first_order() {
     for tuning in TUNINGS {
-        let (paper, slope) = (paper(tuning), first_order(tuning));
-        let innovation = (0..TIMES.len()).map(|i| (paper[i][2] - PLANT.position(TIMES[i])).powi(2)).sum::<f64>().sqrt();
+        let (paper, nothing) = (paper(tuning), Signals::default());
         for input in [Input::Mean, Input::Line] {
             let mut before: Option<[f64; 4]> = None;
             for level in 0..7 {
                 let period = 0.02 / f64::from(1 << level);
                 let core = core(tuning, period, input);
-                let rounding = gap(&core, &twin(tuning, period, input, |x| f64::from(x as f32)), 0.0, &slope);
-                let difference = gap(&core, &paper, 0.0, &slope);
-                let gain = 2.0 * innovation * 2f64.powi(-25) / period;
-                let bounds = [2e-6, 2e-6, 5e-6, 2e-6 + gain];
-                for (s, bound) in bounds.into_iter().enumerate() {
+                let rounding = gap(&core, &twin(tuning, period, input, |x| f64::from(x as f32)), 0.0, &nothing);
+                let difference = gap(&core, &paper, 0.0, &nothing);
+                for (s, name) in NAMES.iter().enumerate() {
                     let ratio = before.map(|b| b[s] / difference[s]);
                     println!(
-                        "{tuning:?}, {input:?}, T {period:.2e} s, {}: core - twin {:.1e} (bound {bound:.1e}), \
-                         core - paper {:.2e}, ratio {ratio:.3?}",
-                        NAMES[s], rounding[s], difference[s]
+                        "{tuning:?}, {input:?}, T {period:.2e} s, {name}: core - twin {:.1e}, core - paper {:.2e}, ratio {ratio:.3?}",
+                        rounding[s], difference[s]
                     );
-                    assert!(rounding[s] <= bound, "{}: {:e} above {bound:e}", NAMES[s], rounding[s]);
-                    // Beyond 1 kHz the rounding of the velocity shows.
-                    if let Some(ratio) = ratio.filter(|_| period > 1e-3) {
-                        assert!((1.9..2.1).contains(&ratio), "{}: ratio {ratio}", NAMES[s]);
+                    let filtered = s < 2;
+                    assert!(!filtered || rounding[s] <= 2e-6, "{name}: {:e} off its twin", rounding[s]);
+                    if let Some(ratio) = ratio.filter(|_| filtered || period < 2e-3) {
+                        assert!((1.9..2.1).contains(&ratio), "{name}: ratio {ratio}");
                     }
+                    assert!(level < 6 || difference[s] < 6e-3, "{name}: {:e} at 3.2 kHz", difference[s]);
                 }
                 before = Some(difference);
             }
         }
+    }
+}
+
+/// With the true k the states of both are those of the plant, at any rate, whatever the gains.
+#[test]
+fn with_the_true_parameter_the_states_agree_at_any_rate() {
+    for (period, bound) in [(0.02, [1e-6, 4e-6]), (2.5e-3, [1e-6, 4e-6]), (1e-3, [1e-6, 4e-6])] {
+        let mut config =
+            EstimatorConfig::<1, 1> { drift: [PLANT.drift], nominal: [Some(PLANT.k)], ..EstimatorConfig::new(period) };
+        config.rule[0].min = 1e6;
+        let mut estimator = Estimator::new(&config).unwrap();
+        let mut worst = [0.0_f64; 2];
+        for n in 0..=last(period) {
+            let t = n as f64 * period;
+            estimator.measure(&[Some(PLANT.position(t) as f32)]).unwrap();
+            if t > 0.5 {
+                let state = estimator.states()[0].unwrap();
+                worst[0] = worst[0].max((f64::from(state.position) - PLANT.position(t)).abs());
+                worst[1] = worst[1].max((f64::from(state.velocity) - PLANT.velocity(t)).abs());
+            }
+            let (from, to) = Input::Line.over(t, period);
+            estimator.apply_ramp(&[from as f32], &[to as f32]);
+        }
+        println!("T {period} s: position off by {:.1e} m, velocity by {:.1e} m/s", worst[0], worst[1]);
+        assert!(worst[0] < bound[0] && worst[1] < bound[1]);
     }
 }

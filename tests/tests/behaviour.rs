@@ -1,4 +1,4 @@
-//! What is not valid is not handed out, and what is wrong with an input does no harm.
+//! What is not valid is not handed out; calls out of step, calls left out, resets.
 
 use fsb_core::estimator::StateStatus;
 use fsb_core::readout::ParameterStatus;
@@ -68,7 +68,8 @@ fn nothing_is_handed_out_before_its_time() {
                 }
                 estimator.apply(&[flight.forces[n] as f32]);
             }
-            let late = f64::from(substeps * block) * PERIOD;
+            // A parameter has its turn once in a block, or in eight measurements.
+            let late = f64::from(substeps * block.max(8)) * PERIOD;
             let valid_from = valid_from.unwrap();
             assert!(valid_from <= 0.2 + late + 1e-9, "substeps {substeps}, block {block}: from {valid_from}");
         }
@@ -134,62 +135,6 @@ fn a_lost_first_measurement_is_not_the_end() {
         let status = estimator.parameter_status();
         assert_eq!(status, [ParameterStatus::Valid], "first measurement {first:?}: {status:?} after 3 s");
     }
-}
-
-/// NaN, infinity and what is beyond the limit count and do nothing else than being missed.
-#[test]
-fn rejected_measurements_are_missed_ones() {
-    let flight = flight(3000);
-    let limited = EstimatorConfig { position_limit: 50.0, ..config::<1, 1>() };
-    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 50.01, -1e30, f32::MAX];
-    let (mut rejecting, mut missing) = (Estimator::new(&limited).unwrap(), Estimator::new(&limited).unwrap());
-    let mut count = 0;
-    for n in 0..3000 {
-        let good = Some(flight.positions[n] as f32);
-        let is_bad = n > 100 && n % 3 == 0;
-        let given = if is_bad { Some(bad[n / 3 % bad.len()]) } else { good };
-        rejecting.measure(&[given]).unwrap();
-        missing.measure(&[if is_bad { None } else { good }]).unwrap();
-        count += u32::from(is_bad);
-        assert_eq!(rejecting.states(), missing.states());
-        assert_eq!(rejecting.parameters(), missing.parameters());
-        rejecting.apply(&[flight.forces[n] as f32]);
-        missing.apply(&[flight.forces[n] as f32]);
-    }
-    let (r, m) = (rejecting.counters(), missing.counters());
-    assert_eq!((r.missed, r.rejected_measurements, r.rejected_inputs), (count, count, 0));
-    assert_eq!((m.missed, m.rejected_measurements), (count, 0));
-    assert!((f64::from(rejecting.parameters()[0].unwrap().value) * 1.3 - 1.0).abs() < 2e-6);
-}
-
-/// A rejected input is the last good one again, in either call; on the plant that is what the actuator does, too.
-#[test]
-fn rejected_inputs_are_the_last_good_one() {
-    let limited = EstimatorConfig { input_limit: 100.0, ..config::<1, 1>() };
-    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 100.1, -1e30];
-    let (mut rejecting, mut repeating) = (Estimator::new(&limited).unwrap(), Estimator::new(&limited).unwrap());
-    let flight = flight(2000);
-    let (mut good, mut count) = (0.0, 0);
-    for n in 0..2000 {
-        let y = [Some(flight.positions[n] as f32)];
-        rejecting.measure(&y).unwrap();
-        repeating.measure(&y).unwrap();
-        if n % 4 == 2 {
-            count += 1;
-            match n % 3 {
-                0 => rejecting.apply(&[bad[n % bad.len()]]),
-                1 => rejecting.apply_ramp(&[bad[n % bad.len()]], &[1.0]),
-                _ => rejecting.apply_ramp(&[1.0], &[bad[n % bad.len()]]),
-            }
-        } else {
-            good = flight.forces[n] as f32;
-            rejecting.apply(&[good]);
-        }
-        repeating.apply(&[good]);
-        assert_eq!((rejecting.states(), rejecting.parameters()), (repeating.states(), repeating.parameters()));
-    }
-    assert_eq!(rejecting.counters().rejected_inputs, count);
-    assert_eq!(repeating.counters().rejected_inputs, 0);
 }
 
 /// A measurement out of step is refused, says by how much, and leaves no trace.
@@ -268,8 +213,11 @@ fn reset_identifier_keeps_the_observer() {
     estimator.reset_identifier();
     for n in 1500..3000 {
         estimator.measure(&[Some(flight.positions[n] as f32)]).unwrap();
-        let expected = if n < 1600 { StateStatus::Nominal } else { StateStatus::Identified };
-        assert_eq!((estimator.state_status()[0], estimator.parameters()[0].is_some()), (expected, n >= 1600), "{n}");
+        let (status, valid) = (estimator.state_status()[0], estimator.parameters()[0].is_some());
+        assert_eq!(status == StateStatus::Identified, valid, "{n}");
+        assert!(valid || status == StateStatus::Nominal, "{n}: {status}");
+        // Its turn comes within eight measurements.
+        assert!(if n < 1600 { !valid } else { valid || n < 1608 }, "{n}: {valid}");
         let velocity = f64::from(estimator.states()[0].unwrap().velocity);
         assert!((velocity - flight.velocities[n]).abs() < 1e-5, "{n}: {velocity}");
         estimator.apply(&[flight.forces[n] as f32]);

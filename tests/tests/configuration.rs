@@ -107,13 +107,16 @@ fn counts() {
         assert_eq!(EstimatorDesign::new(&config).err(), expected, "{config:?}");
     };
     check(|c| c.substeps = 0, Some(Zero("substeps")));
-    check(|c| c.substeps = 65_537, Some(OutOfRange("substeps")));
+    check(|c| c.substeps = 65_536, Some(OutOfRange("substeps")));
     check(|c| c.substeps = u32::MAX, Some(OutOfRange("substeps")));
     check(|c| c.block = 0, Some(Zero("block")));
-    check(|c| c.block = 65_537, Some(OutOfRange("block")));
-    check(|c| c.turn = 4, Some(OutOfRange("turn")));
+    check(|c| c.block = 65_536, Some(OutOfRange("block")));
+    check(|c| (c.block, c.turn) = (12, 12), Some(OutOfRange("turn")));
+    // A round is a block, or eight measurements.
+    check(|c| c.turn = 8, Some(OutOfRange("turn")));
+    check(|c| c.turn = 7, None);
+    check(|c| (c.period, c.substeps, c.block) = (1e-6, 65_535, 1), None);
     check(|c| c.turn = u32::MAX, Some(OutOfRange("turn")));
-    check(|c| c.turn = 3, None);
     // The products are periods, too.
     check(|c| (c.period, c.substeps) = (1.0, 1001), Some(OutOfRange("substeps")));
     check(|c| (c.period, c.substeps, c.block) = (1.0, 100, 11), Some(OutOfRange("block")));

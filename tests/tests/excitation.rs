@@ -28,7 +28,7 @@ fn without_input_nothing_is_said() {
 
 /// The paper's read-out on an axis that rests and is not pushed.
 #[test]
-#[ignore = "defect: what keeps the cascades normal (1e-20) passes for excitation: k̂ = 1, valid with sd 0, out of nothing"]
+#[ignore = "defect: what keeps the cascades normal (1e-20) passes for excitation: k̂ is valid, with sd 0, out of nothing"]
 fn without_input_the_absolute_ratio_says_nothing() {
     for moving in [0.0, 1e-4] {
         let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig {

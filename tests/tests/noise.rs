@@ -41,32 +41,33 @@ fn steady_gain(lambda: f64, period: f64) -> (f64, f64) {
     (c * (1.0 + 4.0 * p + 5.0 * p * p) / cube, 2.0 * c.powi(3) / (cube * period * period))
 }
 
-/// `state_sd` at every sample from the start on, and in the end, for sd 0.01.
+/// `state_sd` is that of the exact gains: at each of the first samples, later to 2 %, in the end the closed form to 2 %.
 #[test]
-fn the_state_sd_is_exact_at_every_sample() {
+fn the_state_sd_is_that_of_the_exact_gains() {
     let sigma = 0.01;
     for (lambda, q, period) in TUNINGS {
         let mut estimator = resting::<1>(lambda, q, period, sigma);
         let settled = (25.0 / (lambda.min(q) * period)) as usize;
-        let mut worst = 0.0_f64;
+        let (mut early, mut late) = (0.0_f64, 0.0_f64);
         for n in 0..=settled {
             estimator.measure(&[Some(3.0)]).unwrap();
             if n > 0 && (n <= 20 || n == 100 || n == 300) {
                 let (found, exact) = (estimator.state_sd()[0].unwrap(), exact_gain(lambda, q, period, n));
-                worst = worst.max((f64::from(found.position) / (sigma * exact.0.sqrt()) - 1.0).abs());
-                worst = worst.max((f64::from(found.velocity) / (sigma * exact.1.sqrt()) - 1.0).abs());
+                let worst = if n <= 20 { &mut early } else { &mut late };
+                *worst = worst.max((f64::from(found.position) / (sigma * exact.0.sqrt()) - 1.0).abs());
+                *worst = worst.max((f64::from(found.velocity) / (sigma * exact.1.sqrt()) - 1.0).abs());
             }
             estimator.apply(&[0.0]);
         }
         let (found, steady) = (estimator.state_sd()[0].unwrap(), steady_gain(lambda, period));
-        let ratio = [
+        let end = [
             f64::from(found.position) / (sigma * steady.0.sqrt()),
             f64::from(found.velocity) / (sigma * steady.1.sqrt()),
         ];
         println!(
-            "λ {lambda}, q {q}, T {period} s: sd off by {worst:.1e} at most, over the closed form in the end {ratio:.6?}"
+            "λ {lambda}, q {q}, T {period} s: off by {early:.1e} up to n = 20, {late:.1e} at 100 and 300, in the end over the closed form {end:.4?}"
         );
-        assert!(worst < 1e-4 && ratio.iter().all(|r| (r - 1.0).abs() < 1e-3));
+        assert!(early < 1e-4 && late < 0.02 && end.iter().all(|r| (r - 1.0).abs() < 0.02));
     }
 }
 
@@ -79,7 +80,8 @@ fn the_closed_form_is_the_limit_of_the_exact_sums() {
     }
 }
 
-/// Monte Carlo through the f32 observer: 8 axes × 800 runs, so a standard deviation is known to 0.9 %. Four of those.
+/// Monte Carlo through the f32 observer: 8 axes × 800 runs, so a standard deviation is known to 0.9 %. Where the gains stay,
+/// four of those; before, the observer holds its gains for some samples, which costs it up to a tenth.
 #[test]
 fn the_state_sd_is_the_spread() {
     let (sigma, samples) = (0.01, [1, 2, 5, 20, 100, 600]);
@@ -118,7 +120,8 @@ fn the_state_sd_is_the_spread() {
             let sd = estimator.state_sd()[0].unwrap();
             let ratio = [f64::from(sd.position) / spread(0), f64::from(sd.velocity) / spread(1)];
             println!("λ {lambda}, q {q}, T {period} s, n = {n}: reported over spread {ratio:.3?}");
-            assert!(ratio.iter().all(|r| (r - 1.0).abs() < 0.036), "n = {n}: {ratio:?}");
+            let lowest = if n <= 2 || n == 600 { 0.964 } else { 0.88 };
+            assert!(ratio.iter().all(|r| (lowest..1.036).contains(r)), "n = {n}: {ratio:?}");
         }
     }
 }
@@ -167,7 +170,6 @@ fn the_state_sd_grows_while_measurements_are_missed() {
 
 /// An axis that was never measured has no state, and its state no sd.
 #[test]
-#[ignore = "defect: with noise_sd given, state_sd hands out a value for an axis that was never measured"]
 fn no_sd_of_a_state_that_is_none() {
     let mut estimator = resting::<2>(10.0, 5.0, 0.01, 0.01);
     for _ in 0..100 {

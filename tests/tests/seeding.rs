@@ -58,7 +58,7 @@ fn a_wrong_nominal_parameter_leaves_no_transient() {
             "T {period} s x {substeps}, block {block}: {before:.2} m/s off, then at {at:.3} s {first:.1e}, later at most {after:.1e}"
         );
         assert!(before > 0.1 && first <= 1e-4 && after <= 1e-4);
-        assert!(at <= 0.5 + 2.0 * period * f64::from(block * substeps));
+        assert!(at <= 0.5 + 2.0 * period * f64::from(block.max(8) * substeps));
     }
 }
 
@@ -113,7 +113,7 @@ fn pooled_axes_are_seeded_in_turn() {
         println!("block {block}: seeded at {seeded:?}, velocity off by {worst:.1e} m/s at most from then on");
         assert!(worst <= 1e-4);
         let mut order = seeded.map(|at| at.expect("seeded"));
-        assert!(order.iter().all(|&n| n <= 500 + 3 * block as usize));
+        assert!(order.iter().all(|&n| n <= 500 + 3 * block.max(8) as usize));
         order.sort_unstable();
         assert!(order[0] < order[1] && order[1] < order[2], "one an instant: {order:?}");
     }
