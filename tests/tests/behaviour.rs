@@ -76,11 +76,10 @@ fn nothing_is_handed_out_before_its_time() {
     }
 }
 
-/// An axis never measured is told so, and does the others no harm.
+/// Nothing begins before every axis has been measured at one instant: nothing is handed out, and what is missing counts.
 #[test]
 fn an_axis_never_measured() {
     let flight = flight(2000);
-    let k = RecordingConfig::default().k as f32;
     let mut pooled = Estimator::<3, 1>::new(&config()).unwrap();
     let mut apart = Estimator::<3, 3>::new(&config()).unwrap();
     for n in 0..2000 {
@@ -91,18 +90,16 @@ fn an_axis_never_measured() {
         apart.apply(&[f; 3]);
     }
     for status in [pooled.state_status(), apart.state_status()] {
-        assert_eq!(status, [StateStatus::Identified, StateStatus::NotMeasured, StateStatus::Identified]);
+        assert_eq!(status, [StateStatus::NotMeasured; 3]);
     }
-    assert!(pooled.states()[1].is_none() && apart.states()[1].is_none() && apart.parameters()[1].is_none());
-    for found in [pooled.parameters()[0], apart.parameters()[0], apart.parameters()[2]] {
-        assert!((found.unwrap().value / k - 1.0).abs() < 1e-6);
-    }
+    assert_eq!((pooled.states(), apart.states()), ([None; 3], [None; 3]));
+    assert_eq!((pooled.parameters(), apart.parameters()), ([None; 1], [None; 3]));
     assert_eq!((pooled.counters().missed, pooled.counters().rejected_measurements), (2000, 0));
 }
 
-/// An axis measured later than the others has no dead-beat start: its state is kept back until the start is forgotten.
+/// When the last axis is measured at last, all begin together, dead-beat, as if it had been the first instant.
 #[test]
-fn a_late_axis_is_kept_back() {
+fn a_late_axis_holds_up_the_start() {
     let flight = flight(3000);
     let nominal = [Some(RecordingConfig::default().k); 2];
     let mut estimator = Estimator::<2, 2>::new(&EstimatorConfig { nominal, ..config() }).unwrap();
@@ -110,21 +107,20 @@ fn a_late_axis_is_kept_back() {
     for n in 0..3000 {
         let y = Some(flight.positions[n] as f32);
         estimator.measure(&[y, y.filter(|_| n >= 500)]).unwrap();
-        if let Some(state) = estimator.states()[1] {
+        for state in estimator.states().into_iter().flatten() {
             first.get_or_insert(n);
-            worst = worst.max((f64::from(state.velocity) - flight.velocities[n]).abs());
+            if n >= 600 {
+                worst = worst.max((f64::from(state.velocity) - flight.velocities[n]).abs());
+            }
         }
         estimator.apply(&[flight.forces[n] as f32; 2]);
     }
-    let first = first.expect("handed out in the end");
-    println!("measured from 0.5 s, handed out from {first} ms, then off by {worst:.1e} m/s at most");
-    // λ = 10: the start fades as (1 + λt) e^(-λt), from up to 1.5 m/s.
-    assert!(first > 1000 && first < 2000 && worst < 0.01);
+    println!("measured from 0.5 s, handed out from {first:?} ms, from 0.6 s off by {worst:.1e} m/s at most");
+    assert!((501..700).contains(&first.unwrap()) && worst < 5e-6);
 }
 
 /// The first measurement may be the one that is lost: identification must begin with the next.
 #[test]
-#[ignore = "defect: an axis without a sample at the first instant of its first block never takes part until reset_identifier"]
 fn a_lost_first_measurement_is_not_the_end() {
     let flight = flight(3000);
     for first in [None, Some(f32::NAN)] {

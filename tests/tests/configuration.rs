@@ -170,18 +170,18 @@ fn known_values_and_limits() {
 fn rules() {
     for index in [0, 1] {
         for (min, max, share, expected) in [
-            (f64::NAN, 1.0, 0.1, Some(NonFinite("parameter.min"))),
-            (0.0, 1.0, 0.1, Some(NonPositive("parameter.min"))),
-            (-1.0, 1.0, 0.1, Some(NonPositive("parameter.min"))),
-            (0.1, f64::NAN, 0.1, Some(NonFinite("parameter.max"))),
-            (0.1, f64::INFINITY, 0.1, Some(NonFinite("parameter.max"))),
-            (1.0, 1.0, 0.1, Some(InvertedRange("parameter.min"))),
-            (1.0, 0.9, 0.1, Some(InvertedRange("parameter.min"))),
-            (1.0, -2.0, 0.1, Some(InvertedRange("parameter.min"))),
-            (0.1, 1.0, f64::NAN, Some(NonFinite("parameter.max_relative_sd"))),
-            (0.1, 1.0, 0.0, Some(NonPositive("parameter.max_relative_sd"))),
-            (0.1, 1.0, -0.1, Some(NonPositive("parameter.max_relative_sd"))),
-            (0.1, 1.0, 1.1e6, Some(OutOfRange("parameter.max_relative_sd"))),
+            (f64::NAN, 1.0, 0.1, Some(NonFinite("rule.min"))),
+            (0.0, 1.0, 0.1, Some(NonPositive("rule.min"))),
+            (-1.0, 1.0, 0.1, Some(NonPositive("rule.min"))),
+            (0.1, f64::NAN, 0.1, Some(NonFinite("rule.max"))),
+            (0.1, f64::INFINITY, 0.1, Some(NonFinite("rule.max"))),
+            (1.0, 1.0, 0.1, Some(InvertedRange("rule.min"))),
+            (1.0, 0.9, 0.1, Some(InvertedRange("rule.min"))),
+            (1.0, -2.0, 0.1, Some(InvertedRange("rule.min"))),
+            (0.1, 1.0, f64::NAN, Some(NonFinite("rule.max_relative_sd"))),
+            (0.1, 1.0, 0.0, Some(NonPositive("rule.max_relative_sd"))),
+            (0.1, 1.0, -0.1, Some(NonPositive("rule.max_relative_sd"))),
+            (0.1, 1.0, 1.1e6, Some(OutOfRange("rule.max_relative_sd"))),
             (1e-15, 1e15, 1e6, None),
         ] {
             let mut config = base();
@@ -194,7 +194,7 @@ fn rules() {
             let mut config = base();
             (config.rule[index].min, config.rule[index].max) = (min, max);
             let error = EstimatorDesign::new(&config).err();
-            assert!(matches!(error, Some(OutOfRange(name)) if name.starts_with("parameter.m")), "{error:?}");
+            assert!(matches!(error, Some(OutOfRange(name)) if name.starts_with("rule.m")), "{error:?}");
         }
     }
 }
@@ -241,7 +241,6 @@ fn tracking_controller() {
 
 /// A gain or a drift that is no number in f32, or no gain any more, cannot be right either.
 #[test]
-#[ignore = "defect: kp, kd and drift of TrackingConfig have no limits; 1e39 becomes infinite and 1e-60 zero without a word"]
 fn tracking_gains_have_a_range() {
     for value in [1e39, f64::MAX, 1e-60] {
         assert!(TrackingController::new(&TrackingConfig { kp: value, ..TRACKING }).is_err(), "kp = {value}");
@@ -252,7 +251,6 @@ fn tracking_gains_have_a_range() {
 
 /// "The name of the parameter, as it is written in the configuration": the field is called `rule`.
 #[test]
-#[ignore = "defect: errors of rule[i].min, .max and .max_relative_sd call it parameter.min, …; one names two at once"]
 fn rule_is_named_as_it_is_written() {
     let mut config = base();
     config.rule[1].min = f64::NAN;

@@ -28,7 +28,6 @@ fn without_input_nothing_is_said() {
 
 /// The paper's read-out on an axis that rests and is not pushed.
 #[test]
-#[ignore = "defect: what keeps the cascades normal (1e-20) passes for excitation: k̂ is valid, with sd 0, out of nothing"]
 fn without_input_the_absolute_ratio_says_nothing() {
     for moving in [0.0, 1e-4] {
         let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig {
@@ -81,7 +80,6 @@ fn dust_before_the_flight() {
 }
 
 #[test]
-#[ignore = "defect: a quotient of 1e13 from a tiny input drives the learned noise level to where it takes minutes to come back from"]
 fn finest_dust_before_the_flight() {
     assert!(valid_after_dust(1e-13).is_some());
 }

@@ -91,23 +91,15 @@ fn reported_over_spread(setting: Setting) -> [f64; 5] {
     })
 }
 
-/// Within 15 % from 2 s on; before, up to 1.8 times too high, never too low.
+/// Within 15 % from 2 s on; before, where the coarse steps of its recursion show, up to 35 % too high at 0.3 s and 20 % from
+/// 0.5 s on, never too low.
 #[test]
 fn the_parameter_sd_is_the_spread() {
     for setting in SETTINGS {
         let ratio = reported_over_spread(setting);
-        assert!(ratio[..2].iter().all(|r| (0.9..2.0).contains(r)), "{setting:?}: {ratio:?}");
-        assert!((0.9..1.45).contains(&ratio[2]), "{setting:?}: {ratio:?}");
+        assert!((0.85..1.35).contains(&ratio[0]), "{setting:?}: {ratio:?}");
+        assert!(ratio[1..3].iter().all(|r| (0.85..1.2).contains(r)), "{setting:?}: {ratio:?}");
         assert!(ratio[3..].iter().all(|r| (0.85..1.15).contains(r)), "{setting:?}: {ratio:?}");
-    }
-}
-
-#[test]
-#[ignore = "shortcoming: the coarse recursion of the covariance is up to 1.75 times too high in the first second at 1 kHz"]
-fn the_parameter_sd_is_the_spread_early() {
-    for setting in SETTINGS {
-        let ratio = reported_over_spread(setting);
-        assert!(ratio.iter().all(|r| (0.85..1.15).contains(r)), "{setting:?}: {ratio:?}");
     }
 }
 
@@ -160,7 +152,8 @@ fn the_noise_level_is_learned_for_any_tuning() {
             let setting = (period, block, lambda, ratio * lambda, -9.81, 1.0);
             let [fine, slow] = learned(setting);
             println!("{setting:?}: learned over true variance {fine:.2} from sample to sample, {slow:.2} in the band");
-            assert!((0.8..1.2).contains(&fine) && slow < 2.0, "{setting:?}: {fine}, {slow}");
+            // A value in 0.08/λ: 31 in 5 s for the slowest.
+            assert!((0.7..1.3).contains(&fine) && slow < 2.0, "{setting:?}: {fine}, {slow}");
         }
     }
 }
@@ -190,7 +183,6 @@ fn the_variance_survives_a_change_of_the_noise() {
 
 /// Landed, with fading memory: nothing new is learned, so the sd of what is handed out does not fall.
 #[test]
-#[ignore = "defect: under zero input the variance goes on fading while the sums do not: the sd falls as e^(-t/τ)"]
 fn the_sd_does_not_fall_without_input() {
     let memory = Memory::Fading { tau: 10.0 };
     let mut estimator = Estimator::<1, 1>::new(&EstimatorConfig { memory, ..EstimatorConfig::new(1e-3) }).unwrap();

@@ -56,7 +56,6 @@ fn pooled_is_the_sum_of_apart() {
 
 /// So it is with fading memory, but for the order in which a tick's additions fade (T/τ).
 #[test]
-#[ignore = "defect: the sums of a pooled parameter fade with every axis's addition: three axes make τ a third of what it is said to be"]
 fn pooled_fades_as_apart() {
     for readout in [Readout::LeastSquares, Readout::AbsoluteRatio] {
         let (up, down) = pooled_over_apart(readout, Memory::Fading { tau: 1.0 });

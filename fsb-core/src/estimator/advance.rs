@@ -33,6 +33,12 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The general way.
     #[inline(never)]
     pub(super) fn advance(&mut self, mut y: [f32; N]) {
+        let limit = self.design.common.position_limit;
+        let complete = y.iter().all(|y| y.abs() <= limit);
+        if !self.started && !complete {
+            self.count_missing(&y);
+            return;
+        }
         let m1 = self.observer.gains.m1();
         let mut gains = self.observer.gains;
         if self.started {
@@ -43,7 +49,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         }
         self.started = true;
         self.substep = 0;
-        if !(self.all_measured && y.iter().all(|y| y.abs() <= self.design.common.position_limit)) {
+        if !(self.steady && complete) {
+            self.count_missing(&y);
             self.repair_positions(&mut y, m1);
         }
         for (axis, &y) in self.axes.iter_mut().zip(&y) {
@@ -62,7 +69,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             let next = position + 1;
             self.identifier.position = if next == self.design.common.block_length { 0 } else { next };
         }
-        self.steady = self.all_measured && self.observer.striding && identifying;
+        self.steady = complete && self.all_measured && self.observer.striding && identifying;
     }
 
     /// Blocks of one sample.
@@ -141,7 +148,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     fn turn_gains(&mut self) {
         if self.observer.striding {
             self.observer.renew(&self.design.common);
-        } else {
+        } else if !self.design.common.schedule.unhurried {
             self.observer.settle();
         }
         if self.design.common.schedule.round > 32 {
@@ -197,6 +204,15 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         axis.follow(parameter, &own, clocks, common);
     }
 
+    fn count_missing(&mut self, y: &[f32; N]) {
+        for y in y.iter().filter(|y| !(y.abs() <= self.design.common.position_limit)) {
+            self.counters.missed = self.counters.missed.saturating_add(1);
+            if !y.is_nan() {
+                self.counters.rejected_measurements = self.counters.rejected_measurements.saturating_add(1);
+            }
+        }
+    }
+
     /// First measurements, missing ones, and ones that cannot be right.
     #[inline(never)]
     fn repair_positions(&mut self, y: &mut [f32; N], m1: f32) {
@@ -204,6 +220,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         self.all_measured = true;
         for (index, (axis, y)) in self.axes.iter_mut().zip(y.iter_mut()).enumerate() {
             if y.abs() <= common.position_limit {
+                axis.gap = 0;
                 if !axis.measured {
                     axis.measured = true;
                     axis.observer.start(*y);
@@ -220,11 +237,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
                 }
                 continue;
             }
-            self.counters.missed = self.counters.missed.saturating_add(1);
-            if !y.is_nan() {
-                self.counters.rejected_measurements = self.counters.rejected_measurements.saturating_add(1);
-            }
             axis.missed = axis.missed.saturating_add(1);
+            axis.gap = axis.gap.saturating_add(1);
             let predicted = axis.observer.predict(axis.moments, &axis.model, m1);
             if axis.measured && predicted.abs() <= common.position_limit {
                 *y = predicted;

@@ -57,7 +57,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     }
 
     /// Standard deviations of the states at the last measurement instant that measurement noise causes, where the noise
-    /// level is known. The parameter's own uncertainty is not in them. Good to a few per cent; for reports, not for the tick.
+    /// level is known. The parameter's own uncertainty is not in them, nor are measurements that were missed before the last
+    /// one that came. Good to a few per cent otherwise; for reports, not for the tick.
     pub fn state_sd(&self) -> [Option<AxisState>; N] {
         let (tuning, period) = (self.design.common.observer_tuning, self.design.common.measurement_period);
         let gain = NoiseGain::at_sample(self.observer.count, tuning, period);
@@ -65,7 +66,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             // Means over M samples have an M-th of the variance.
             let variance = axis.noise.measurement_variance() * self.design.common.block_length as f32;
             (axis.noise.is_known() && axis.measured).then(|| AxisState {
-                position: libm::sqrtf(variance * gain.position()),
+                position: libm::sqrtf(variance * gain.position_after(axis.gap)),
                 velocity: libm::sqrtf(variance * gain.velocity(&self.design.common.observer)),
             })
         })

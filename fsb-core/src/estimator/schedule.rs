@@ -22,7 +22,7 @@ pub(super) struct Schedule {
     pub gains_at: u32,
     /// A bit for each measurement of a round (modulo 32) in which somebody has a turn.
     pub events: u32,
-    /// Blocks of one: whether every axis is served at every measurement.
+    /// There is time enough: the gains are renewed at every measurement, and with blocks of one every axis is served.
     pub unhurried: bool,
     /// Blocks of one: whether the axes take their coarse steps one after the other.
     pub staggered: bool,

@@ -37,7 +37,7 @@ impl ObserverClock {
     pub fn next(&mut self, common: &Common) -> Gains {
         self.window.step(&common.observer.window);
         // The very first at once, then in turns with an estimator that has another turn.
-        if self.count < 4 || (self.count ^ common.schedule.turn) & 1 == 0 {
+        if self.count < 4 || common.schedule.unhurried || (self.count ^ common.schedule.turn) & 1 == 0 {
             Gains::at(&self.window, &common.observer)
         } else {
             self.gains

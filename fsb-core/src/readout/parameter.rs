@@ -1,6 +1,7 @@
 //! k with its variance, and the rule by which it may be used.
 
 use super::ratio::Ratio;
+use crate::accumulator::Accumulator;
 use crate::error::{ConfigError, finite, positive};
 use core::fmt;
 
@@ -83,16 +84,18 @@ impl CheckedRule {
 
 impl ParameterRule {
     pub(crate) fn checked(&self) -> Result<CheckedRule, ConfigError> {
-        let min = positive("parameter.min", self.min)?;
-        if finite("parameter.max", self.max)? <= min {
-            return Err(ConfigError::InvertedRange("parameter.min"));
+        let min = positive("rule.min", self.min)?;
+        if finite("rule.max", self.max)? <= min {
+            return Err(ConfigError::InvertedRange("rule.min"));
         }
-        let share = positive("parameter.max_relative_sd", self.max_relative_sd)?;
-        if !(1e-15..=1e15).contains(&min) || !(1e-15..=1e15).contains(&self.max) {
-            return Err(ConfigError::OutOfRange("parameter.min, parameter.max"));
+        let share = positive("rule.max_relative_sd", self.max_relative_sd)?;
+        for (name, value) in [("rule.min", min), ("rule.max", self.max)] {
+            if !(1e-15..=1e15).contains(&value) {
+                return Err(ConfigError::OutOfRange(name));
+            }
         }
-        if share > 1e6 {
-            return Err(ConfigError::OutOfRange("parameter.max_relative_sd"));
+        if !(1e-15..=1e6).contains(&share) {
+            return Err(ConfigError::OutOfRange("rule.max_relative_sd"));
         }
         let relative_variance = (share * share) as f32;
         Ok(CheckedRule {
@@ -126,6 +129,8 @@ pub(crate) struct ParameterState {
     credible: bool,
     /// A coarse step has been taken since the variance was read.
     pub stale: bool,
+    /// Σ ω ẑ0 over the coarse steps.
+    information: Accumulator,
 }
 
 impl ParameterState {
@@ -138,11 +143,13 @@ impl ParameterState {
         read: false,
         credible: false,
         stale: false,
+        information: Accumulator::ZERO,
     };
 
-    /// The newest quotient, valid or not: for prediction in place of a missed sample, and for residuals.
-    pub fn newest(&self) -> Option<f32> {
-        if self.read { Some(self.value) } else { None }
+    /// A coarse step of one of its axes: `added` is what it adds to Σ ω ẑ0.
+    pub fn step_coarsely(&mut self, added: f32, forgetting: f32) {
+        self.information.add_folded(added - forgetting * self.information.value());
+        self.stale = true;
     }
 
     /// The newest quotient, where it is in range and its standard deviation is below its value.
@@ -171,7 +178,7 @@ impl ParameterState {
     /// identifier's scale.
     pub fn read_variance(&mut self, numerator: Option<f32>, scale2: f32) {
         self.stale = false;
-        let information = self.ratio.denominator();
+        let information = self.information.value();
         if let Some(variance) = numerator
             && information > 0.0
         {
