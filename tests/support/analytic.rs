@@ -12,7 +12,7 @@ pub struct Smooth {
 }
 
 impl Smooth {
-    /// y [m].
+    /// y (m).
     pub fn position(&self, t: f64) -> f64 {
         2.0 + (2.0 * t).sin() + 0.3 * (5.0 * t + 1.0).cos()
     }
@@ -22,7 +22,7 @@ impl Smooth {
         2.0 * (2.0 * t).cos() - 1.5 * (5.0 * t + 1.0).sin()
     }
 
-    /// f [N].
+    /// f (N).
     pub fn force(&self, t: f64) -> f64 {
         (-4.0 * (2.0 * t).sin() - 7.5 * (5.0 * t + 1.0).cos() - self.drift) / self.k
     }

@@ -91,14 +91,14 @@ fn reported_over_spread(setting: Setting) -> [f64; 5] {
     })
 }
 
-/// Within 15 % from 2 s on; before, where the coarse steps of its recursion show, up to 35 % too high at 0.3 s and 20 % from
+/// Within 15 % from 2 s on; before, where the coarse steps of its recursion show, up to 35 % too high at 0.3 s and 25 % from
 /// 0.5 s on, never too low.
 #[test]
 fn the_parameter_sd_is_the_spread() {
     for setting in SETTINGS {
         let ratio = reported_over_spread(setting);
         assert!((0.85..1.35).contains(&ratio[0]), "{setting:?}: {ratio:?}");
-        assert!(ratio[1..3].iter().all(|r| (0.85..1.2).contains(r)), "{setting:?}: {ratio:?}");
+        assert!(ratio[1..3].iter().all(|r| (0.85..1.25).contains(r)), "{setting:?}: {ratio:?}");
         assert!(ratio[3..].iter().all(|r| (0.85..1.15).contains(r)), "{setting:?}: {ratio:?}");
     }
 }

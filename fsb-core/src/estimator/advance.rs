@@ -205,7 +205,10 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     }
 
     fn count_missing(&mut self, y: &[f32; N]) {
-        for y in y.iter().filter(|y| !(y.abs() <= self.design.common.position_limit)) {
+        for y in y {
+            if y.abs() <= self.design.common.position_limit {
+                continue;
+            }
             self.counters.missed = self.counters.missed.saturating_add(1);
             if !y.is_nan() {
                 self.counters.rejected_measurements = self.counters.rejected_measurements.saturating_add(1);
