@@ -35,14 +35,6 @@ impl Tuning {
     }
 }
 
-impl Decay {
-    /// The same decay over `steps` periods.
-    pub(crate) fn over(&self, steps: u32) -> Self {
-        let (p, rho) = (libm::pow(self.p, f64::from(steps)), libm::pow(self.rho, f64::from(steps)));
-        Self { period: self.period * f64::from(steps), c: 1.0 - p, p, alpha: 1.0 - rho, rho }
-    }
-}
-
 /// `1 - e^(-x)`, rounded to f32, in f64.
 fn rounded_decay(x: f64, name: &'static str) -> Result<f64, ConfigError> {
     if x > 1.0 {
@@ -57,6 +49,14 @@ fn rounded_decay(x: f64, name: &'static str) -> Result<f64, ConfigError> {
 /// The period, in s, must keep T² and 1/T² far from the ends of f32: `1e-6 <= T <= 1e3`.
 pub(crate) fn checked_period(name: &'static str, period: f64) -> Result<f64, ConfigError> {
     if (1e-6..=1e3).contains(&positive(name, period)?) { Ok(period) } else { Err(ConfigError::OutOfRange(name)) }
+}
+
+impl Tuning {
+    /// The decay over `period`, in s, as it is: for what need not agree with other constants to the last bit.
+    pub(crate) fn plain_decay(&self, period: f64) -> Decay {
+        let (c, alpha) = (-libm::expm1(-self.lambda * period), -libm::expm1(-self.q * period));
+        Decay { period, c, p: 1.0 - c, alpha, rho: 1.0 - alpha }
+    }
 }
 
 /// One-period decay factors in f64, consistent with each other: `p = e^(-λT) = 1 - c`, `ρ = e^(-qT) = 1 - α`.

@@ -2,112 +2,116 @@
 
 use super::Estimator;
 use super::axis::{Clocks, Source};
-use super::design::EstimatorDesign;
+use super::parts::Parts;
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The quick way: everybody measured, gains that hardly change.
     #[inline(always)]
     pub(super) fn advance_steadily(&mut self, y: &[f32; N]) {
-        self.observer.tick();
-        self.substep = 0;
-        let gains = self.observer.gains;
+        let progress = &mut self.progress;
+        progress.observer.tick();
+        progress.substep = 0;
+        let gains = progress.observer.gains;
         if self.design.common.block_length == 1 {
             for (axis, &y) in self.axes.iter_mut().zip(y) {
                 axis.observe(y, gains.m1(), gains.t_l2());
             }
-            self.take_singles(y);
+            self.parts().take_singles(y);
         } else {
             for (axis, &y) in self.axes.iter_mut().zip(y) {
                 axis.observe(y, gains.m1(), gains.t_l2());
                 axis.sample(y);
             }
-            let position = self.identifier.position;
-            if self.design.common.schedule.events.wrapping_shr(position) & 1 == 1 {
-                self.take_turns(y, position);
-            }
+            let position = progress.identifier.position;
             let next = position + 1;
-            self.identifier.position = if next == self.design.common.block_length { 0 } else { next };
+            progress.identifier.position = if next == self.design.common.block_length { 0 } else { next };
+            if self.design.common.schedule.events.wrapping_shr(position) & 1 == 1 {
+                self.parts().take_turns(y, position);
+            }
         }
     }
+}
 
+impl Parts<'_> {
     /// The general way.
     #[inline(never)]
-    pub(super) fn advance(&mut self, mut y: [f32; N]) {
-        let limit = self.design.common.position_limit;
+    pub fn advance(&mut self, y: &mut [f32]) {
+        let limit = self.common.position_limit;
         let complete = y.iter().all(|y| y.abs() <= limit);
-        if !self.started && !complete {
-            self.count_missing(&y);
+        if !self.progress.started && !complete {
+            self.count_missing(y);
             return;
         }
-        let m1 = self.observer.gains.m1();
-        let mut gains = self.observer.gains;
-        if self.started {
-            self.observer.tick();
-            if !self.observer.striding {
-                gains = self.observer.next(&self.design.common);
+        let m1 = self.progress.observer.gains.m1();
+        let mut gains = self.progress.observer.gains;
+        if self.progress.started {
+            self.progress.observer.tick();
+            if !self.progress.observer.striding {
+                gains = self.progress.observer.next(self.common);
             }
         }
-        self.started = true;
-        self.substep = 0;
-        if !(self.steady && complete) {
-            self.count_missing(&y);
-            self.repair_positions(&mut y, m1);
+        self.progress.started = true;
+        self.progress.substep = 0;
+        if !(self.progress.steady && complete) {
+            self.count_missing(y);
+            self.repair_positions(y, m1);
         }
-        for (axis, &y) in self.axes.iter_mut().zip(&y) {
+        for (axis, &y) in self.axes.iter_mut().zip(y.iter()) {
             axis.observe(y, m1, gains.t_l2());
         }
-        self.observer.gains = gains;
-        let identifying = self.observer.count >= self.identifier.began;
-        if identifying && self.design.common.block_length == 1 {
-            self.take_singles(&y);
+        self.progress.observer.gains = gains;
+        let identifying = self.progress.observer.count >= self.progress.identifier.began;
+        if identifying && self.common.block_length == 1 {
+            self.take_singles(y);
         } else if identifying {
-            for (axis, &y) in self.axes.iter_mut().zip(&y) {
+            for (axis, &y) in self.axes.iter_mut().zip(y.iter()) {
                 axis.sample(y);
             }
-            let position = self.identifier.position;
-            self.take_turns(&y, position);
+            let position = self.progress.identifier.position;
+            self.take_turns(y, position);
             let next = position + 1;
-            self.identifier.position = if next == self.design.common.block_length { 0 } else { next };
+            self.progress.identifier.position = if next == self.common.block_length { 0 } else { next };
         }
-        self.steady = complete && self.all_measured && self.observer.striding && identifying;
+        self.progress.steady = complete && self.progress.all_measured && self.progress.observer.striding && identifying;
     }
 
     /// Blocks of one sample.
-    #[inline(always)]
-    fn take_singles(&mut self, y: &[f32; N]) {
-        let common = &self.design.common;
-        self.identifier.step(common);
+    #[inline(never)]
+    fn take_singles(&mut self, y: &[f32]) {
+        let common = self.common;
+        self.progress.identifier.step(common);
         for (index, (axis, &y)) in self.axes.iter_mut().zip(y).enumerate() {
             let mean = axis.single(y);
-            let Some(own) = self.design.own(index) else { continue };
             if axis.present
-                && let Some(parameter) = self.parameters.get_mut(EstimatorDesign::<N, P>::parameter_of(index))
+                && let Some(own) = self.each.axes.get(index)
+                && let Some(parameter) = self.parameters.get_mut(self.each.parameter_of(index))
             {
-                axis.identify(mean, false, &own, &self.identifier, parameter, common);
+                let own = (own.drift, common.schedule.coarse_slot(index));
+                axis.identify(mean, false, own, &self.progress.identifier, parameter, common);
             }
         }
-        let position = self.identifier.position;
-        self.identifier.position = (position + 1) & 7;
+        let position = self.progress.identifier.position;
+        self.progress.identifier.position = (position + 1) & 7;
         if common.schedule.unhurried {
-            for index in 0..N {
+            for index in 0..self.axes.len() {
                 self.serve(index);
             }
         } else {
             self.serve(position as usize);
         }
-        if position == self.design.common.schedule.gains_at {
+        if position == self.common.schedule.gains_at {
             self.turn_gains();
         }
     }
 
     /// The turns within a block of several samples, at the `position`-th.
     #[inline(never)]
-    fn take_turns(&mut self, y: &[f32; N], position: u32) {
-        let common = &self.design.common;
+    fn take_turns(&mut self, y: &[f32], position: u32) {
+        let common = self.common;
         let schedule = &common.schedule;
         let length = common.block_length;
         if position == schedule.weights_at {
-            self.identifier.step(common);
+            self.progress.identifier.step(common);
         }
         // Axis i begins its blocks at the i-th sample of the first axis's and ends them a sample before.
         let mut index = position as usize;
@@ -116,12 +120,12 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             index += length as usize;
         }
         let gains_turn = if schedule.round > schedule.gains_every {
-            self.observer.is_due(common)
+            self.progress.observer.is_due(common)
         } else {
             position == schedule.gains_at
         };
         let mut index = if position + 1 == length { 0 } else { position as usize + 1 };
-        while index < N {
+        while index < self.axes.len() {
             self.complete_block(index);
             self.serve(index);
             index += length as usize;
@@ -133,26 +137,27 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
 
     #[inline(always)]
     fn complete_block(&mut self, index: usize) {
-        let common = &self.design.common;
+        let common = self.common;
         if let (Some(axis), Some(own), Some(parameter)) = (
             self.axes.get_mut(index),
-            self.design.own(index),
-            self.parameters.get_mut(EstimatorDesign::<N, P>::parameter_of(index)),
+            self.each.axes.get(index),
+            self.parameters.get_mut(self.each.parameter_of(index)),
         ) && axis.present
         {
             let mean = axis.block.complete(&common.block);
-            axis.identify(mean, true, &own, &self.identifier, parameter, common);
+            let own = (own.drift, common.schedule.coarse_slot(index));
+            axis.identify(mean, true, own, &self.progress.identifier, parameter, common);
         }
     }
 
     fn turn_gains(&mut self) {
-        if self.observer.striding {
-            self.observer.renew(&self.design.common);
-        } else if !self.design.common.schedule.unhurried {
-            self.observer.settle();
+        if self.progress.observer.striding {
+            self.progress.observer.renew(self.common);
+        } else if !self.common.schedule.unhurried {
+            self.progress.observer.settle();
         }
-        if self.design.common.schedule.round > 32 {
-            for axis in &mut self.axes {
+        if self.common.schedule.round > 32 {
+            for axis in self.axes.iter_mut() {
                 axis.observer.fold();
             }
         }
@@ -161,11 +166,13 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// An axis's turn after its block: sums are folded, its parameter is read, its observer follows.
     #[inline(always)]
     fn serve(&mut self, index: usize) {
-        let common = &self.design.common;
-        let parameter_index = EstimatorDesign::<N, P>::parameter_of(index);
-        let (Some(axis), Some(parameter), Some(rule)) =
-            (self.axes.get_mut(index), self.parameters.get_mut(parameter_index), self.design.rule.get(parameter_index))
-        else {
+        let common = self.common;
+        let parameter_index = self.each.parameter_of(index);
+        let (Some(axis), Some(parameter), Some(rule)) = (
+            self.axes.get_mut(index),
+            self.parameters.get_mut(parameter_index),
+            self.each.parameters.get(parameter_index).map(|p| &p.rule),
+        ) else {
             return;
         };
         axis.observer.fold();
@@ -182,58 +189,60 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The same, where the variance has to be read or the status or the source of the prediction may change.
     #[inline(never)]
     fn serve_carefully(&mut self, index: usize) {
-        let common = &self.design.common;
-        let parameter_index = EstimatorDesign::<N, P>::parameter_of(index);
-        let (Some(own), Some(parameter)) = (self.design.own(index), self.parameters.get_mut(parameter_index)) else {
+        let common = self.common;
+        let parameter_index = self.each.parameter_of(index);
+        let (Some(own), Some(parameter)) = (self.each.own(index), self.parameters.get_mut(parameter_index)) else {
             return;
         };
         if parameter.stale {
             let per_stride = common.covariance.per_stride;
             let mut variance = Some(0.0);
             for (other, axis) in self.axes.iter().enumerate() {
-                if axis.present && EstimatorDesign::<N, P>::parameter_of(other) == parameter_index {
+                if axis.present && self.each.parameter_of(other) == parameter_index {
                     variance = variance.zip(axis.numerator_variance(per_stride)).map(|(a, b)| a + b);
                 }
             }
             parameter.read_variance(variance, common.identifier.scale2());
         }
         let Some(axis) = self.axes.get_mut(index) else { return };
-        let settled = self.observer.count - self.identifier.began >= common.parameter_settle;
+        let settled = self.progress.observer.count - self.progress.identifier.began >= common.parameter_settle;
         parameter.read(settled, own.rule);
-        let clocks = Clocks { identifier: &self.identifier, observer: &self.observer };
+        let clocks = Clocks { identifier: &self.progress.identifier, observer: &self.progress.observer };
         axis.follow(parameter, &own, clocks, common);
     }
 
-    fn count_missing(&mut self, y: &[f32; N]) {
+    fn count_missing(&mut self, y: &[f32]) {
         for y in y {
-            if y.abs() <= self.design.common.position_limit {
+            if y.abs() <= self.common.position_limit {
                 continue;
             }
-            self.counters.missed = self.counters.missed.saturating_add(1);
+            self.progress.counters.missed = self.progress.counters.missed.saturating_add(1);
             if !y.is_nan() {
-                self.counters.rejected_measurements = self.counters.rejected_measurements.saturating_add(1);
+                self.progress.counters.rejected_measurements =
+                    self.progress.counters.rejected_measurements.saturating_add(1);
             }
         }
     }
 
     /// First measurements, missing ones, and ones that cannot be right.
     #[inline(never)]
-    fn repair_positions(&mut self, y: &mut [f32; N], m1: f32) {
-        let common = &self.design.common;
-        self.all_measured = true;
+    fn repair_positions(&mut self, y: &mut [f32], m1: f32) {
+        let common = self.common;
+        self.progress.all_measured = true;
         for (index, (axis, y)) in self.axes.iter_mut().zip(y.iter_mut()).enumerate() {
             if y.abs() <= common.position_limit {
                 axis.gap = 0;
                 if !axis.measured {
                     axis.measured = true;
                     axis.observer.start(*y);
-                    let late = if self.observer.count > 0 { common.late_settle } else { 1 };
-                    axis.settled_at = self.observer.count.saturating_add(late.max(common.state_settle));
-                    let parameter = self.parameters.get(EstimatorDesign::<N, P>::parameter_of(index));
-                    if let (Some(own), Some(parameter)) = (self.design.own(index), parameter)
+                    let late = if self.progress.observer.count > 0 { common.late_settle } else { 1 };
+                    axis.settled_at = self.progress.observer.count.saturating_add(late.max(common.state_settle));
+                    let parameter = self.parameters.get(self.each.parameter_of(index));
+                    if let (Some(own), Some(parameter)) = (self.each.own(index), parameter)
                         && axis.source == Source::Nothing
                     {
-                        let clocks = Clocks { identifier: &self.identifier, observer: &self.observer };
+                        let clocks =
+                            Clocks { identifier: &self.progress.identifier, observer: &self.progress.observer };
                         axis.change_source(parameter, &own, clocks, common);
                     }
                     axis.decide_use();
@@ -253,7 +262,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
                 axis.decide_use();
                 *y = 0.0;
             }
-            self.all_measured &= axis.measured;
+            self.progress.all_measured &= axis.measured;
         }
     }
 }

@@ -31,8 +31,6 @@ pub(super) struct Own<'a> {
     pub drift_t2: f32,
     pub nominal: Option<f32>,
     pub rule: &'a CheckedRule,
-    /// Blocks after the shared coarse step.
-    pub coarse_slot: u32,
 }
 
 /// The two clocks.
@@ -126,13 +124,13 @@ impl Axis {
     }
 
     /// Takes the mean of a completed block through the cascade into the parameter's sums. With `fold`, sums are folded on
-    /// the way.
+    /// the way; `coarse_slot` is the number of blocks after the shared coarse step at which the axis takes its own.
     #[inline(always)]
     pub fn identify(
         &mut self,
         mean: BlockMean,
         fold: bool,
-        own: &Own<'_>,
+        (drift, coarse_slot): (f32, u32),
         clock: &IdentifierClock,
         parameter: &mut ParameterState,
         common: &Common,
@@ -144,13 +142,13 @@ impl Axis {
         }
         let mut z2 = self.cascade.z2();
         if common.any_drift {
-            z2 -= own.drift * clock.unit.zu();
+            z2 -= drift * clock.unit.zu();
         }
         let z0 = self.cascade.z0();
         // The window is zero in the first two blocks; a block of predictions alone says nothing that was not known.
         if clock.blocks > 2 && u32::from(self.missed) < common.block_length {
             let informative = parameter.ratio.add(common.readout, z2, z0, common.forgetting);
-            if informative && clock.stride == own.coarse_slot {
+            if informative && clock.stride == coarse_slot {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         }

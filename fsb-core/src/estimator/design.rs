@@ -1,13 +1,12 @@
 //! A configuration validated and turned into constants.
 
-use super::axis::Own;
 use super::config::EstimatorConfig;
 use super::schedule::Schedule;
 use crate::error::{ConfigError, finite, positive};
 use crate::identifier::{BlockDesign, IdentifierDesign};
 use crate::moments::Substep;
 use crate::observer::ObserverDesign;
-use crate::readout::{CheckedRule, CovarianceDesign, NoiseLevel, Readout, innovation_step_gain};
+use crate::readout::{CheckedRule, CovarianceDesign, Memory, NoiseLevel, ParameterRule, Readout, innovation_step_gain};
 use crate::tuning::{Tuning, checked_period};
 use crate::window::WindowDesign;
 
@@ -16,12 +15,26 @@ use crate::window::WindowDesign;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EstimatorDesign<const N: usize, const P: usize> {
     pub(super) common: Common,
+    pub(super) axes: [AxisDesign; N],
+    pub(super) parameters: [ParameterDesign; P],
+}
+
+/// What differs from axis to axis.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct AxisDesign {
     /// c
-    pub(super) drift: [f32; N],
+    pub drift: f32,
     /// c T²
-    pub(super) drift_t2: [f32; N],
-    pub(super) nominal: [Option<f32>; P],
-    pub(super) rule: [CheckedRule; P],
+    pub drift_t2: f32,
+}
+
+/// What differs from parameter to parameter.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct ParameterDesign {
+    pub nominal: Option<f32>,
+    pub rule: CheckedRule,
 }
 
 /// What does not depend on the number of axes.
@@ -76,55 +89,82 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
     /// by the measurement period T, those of the identifier by M T; both products must be within 1e-6..=1.
     pub fn new(config: &EstimatorConfig<N, P>) -> Result<Self, ConfigError> {
         const { Self::SHAPE };
-        let common = Common::new(config)?;
+        let common = Common::new(&Shapeless {
+            axes: N as u32,
+            sharing: if P == 1 { N as u32 } else { 1 },
+            any_drift: config.drift.iter().any(|&c| c != 0.0),
+            period: config.period,
+            substeps: config.substeps,
+            block: config.block,
+            turn: config.turn,
+            identifier: config.identifier,
+            observer: config.observer,
+            noise_sd: config.noise_sd,
+            readout: config.readout,
+            memory: config.memory,
+            parameter_settle: config.parameter_settle,
+            state_settle: config.state_settle,
+            position_limit: config.position_limit,
+            input_limit: config.input_limit,
+        })?;
         let period2 = common.measurement_period * common.measurement_period;
-        let mut drift = [0.0; N];
-        let mut drift_t2 = [0.0; N];
-        for ((out, out_t2), &c) in drift.iter_mut().zip(drift_t2.iter_mut()).zip(&config.drift) {
-            if finite("drift", c)?.abs() > 1e6 {
-                return Err(ConfigError::OutOfRange("drift"));
-            }
-            *out = c as f32;
-            *out_t2 = (c * period2) as f32;
+        let mut axes = [AxisDesign { drift: 0.0, drift_t2: 0.0 }; N];
+        for (axis, &c) in axes.iter_mut().zip(&config.drift) {
+            *axis = AxisDesign::new(c, period2)?;
         }
-        let mut nominal = [None; P];
-        for (out, k) in nominal.iter_mut().zip(config.nominal) {
-            if let Some(k) = k {
-                if !(1e-15..=1e15).contains(&positive("nominal", k)?) {
-                    return Err(ConfigError::OutOfRange("nominal"));
-                }
-                *out = Some(k as f32);
-            }
+        let mut parameters = [ParameterDesign { nominal: None, rule: CheckedRule::NEVER }; P];
+        for (parameter, (&nominal, rule)) in parameters.iter_mut().zip(config.nominal.iter().zip(&config.rule)) {
+            *parameter = ParameterDesign::new(nominal, rule)?;
         }
-        let mut rule = [CheckedRule::NEVER; P];
-        for (out, r) in rule.iter_mut().zip(&config.rule) {
-            *out = r.checked()?;
-        }
-        Ok(Self { common, drift, drift_t2, nominal, rule })
-    }
-
-    /// What is particular to an axis.
-    #[inline(always)]
-    pub(super) fn own(&self, axis: usize) -> Option<Own<'_>> {
-        let parameter = Self::parameter_of(axis);
-        Some(Own {
-            drift: *self.drift.get(axis)?,
-            drift_t2: *self.drift_t2.get(axis)?,
-            nominal: *self.nominal.get(parameter)?,
-            rule: self.rule.get(parameter)?,
-            coarse_slot: self.common.schedule.coarse_slot(axis),
-        })
-    }
-
-    /// The parameter that `axis` shares in.
-    #[inline(always)]
-    pub(super) const fn parameter_of(axis: usize) -> usize {
-        if P == 1 { 0 } else { axis }
+        Ok(Self { common, axes, parameters })
     }
 }
 
+impl AxisDesign {
+    fn new(drift: f64, period2: f64) -> Result<Self, ConfigError> {
+        if finite("drift", drift)?.abs() > 1e6 {
+            return Err(ConfigError::OutOfRange("drift"));
+        }
+        Ok(Self { drift: drift as f32, drift_t2: (drift * period2) as f32 })
+    }
+}
+
+impl ParameterDesign {
+    #[inline(never)]
+    fn new(nominal: Option<f64>, rule: &ParameterRule) -> Result<Self, ConfigError> {
+        if let Some(k) = nominal
+            && !(1e-15..=1e15).contains(&positive("nominal", k)?)
+        {
+            return Err(ConfigError::OutOfRange("nominal"));
+        }
+        Ok(Self { nominal: nominal.map(|k| k as f32), rule: rule.checked()? })
+    }
+}
+
+/// The part of a configuration that does not depend on the number of axes: its code is there once.
+struct Shapeless {
+    axes: u32,
+    /// Axes to a parameter.
+    sharing: u32,
+    any_drift: bool,
+    period: f64,
+    substeps: u32,
+    block: u32,
+    turn: u32,
+    identifier: Tuning,
+    observer: Tuning,
+    noise_sd: Option<f64>,
+    readout: Readout,
+    memory: Memory,
+    parameter_settle: f64,
+    state_settle: f64,
+    position_limit: f64,
+    input_limit: f64,
+}
+
 impl Common {
-    fn new<const N: usize, const P: usize>(config: &EstimatorConfig<N, P>) -> Result<Self, ConfigError> {
+    #[inline(never)]
+    fn new(config: &Shapeless) -> Result<Self, ConfigError> {
         let control = checked_period("period", config.period)?;
         for (name, count) in [("substeps", config.substeps), ("block", config.block)] {
             if count == 0 {
@@ -140,10 +180,8 @@ impl Common {
         let period = checked_period("substeps", control * f64::from(config.substeps))?;
         let step = checked_period("block", period * f64::from(config.block))?;
         let decay = config.identifier.decay(step, "identifier.lambda", "identifier.q")?;
-        let forgetting = config.memory.forgetting(step)?;
-        let sharing = if P == 1 { N as u32 } else { 1 };
-        let covariance =
-            CovarianceDesign::new(config.identifier.lambda, config.identifier.q, step, forgetting, sharing);
+        let fading = config.memory.fading(step)?;
+        let covariance = CovarianceDesign::new(config.identifier, step, fading, config.sharing);
         let noise = match config.noise_sd {
             None => NoiseLevel::default(),
             Some(sd) if positive("noise_sd", sd)? > 1e6 || sd < 1e-12 => {
@@ -151,9 +189,9 @@ impl Common {
             }
             Some(sd) => NoiseLevel::expected((sd * sd / f64::from(config.block)) as f32),
         };
-        let schedule = Schedule::new(N as u32, config.block, config.turn, period, covariance.steps);
+        let schedule = Schedule::new(config.axes, config.block, config.turn, period, covariance.steps);
         let observer_decay = config.observer.decay(period, "observer.lambda", "observer.q")?;
-        let innovation = innovation_step_gain(observer_decay.p) * f64::from(config.block);
+        let innovation = innovation_step_gain(observer_decay.p as f32) * config.block as f32;
         Ok(Self {
             substeps: config.substeps,
             substep: Substep::new(config.substeps)?,
@@ -161,15 +199,15 @@ impl Common {
             block_length: config.block,
             schedule,
             observer: ObserverDesign::from_decay(&observer_decay),
-            observer_stride: WindowDesign::new(&observer_decay.over(schedule.gains_every)),
+            observer_stride: WindowDesign::new(&config.observer.plain_decay(period * f64::from(schedule.gains_every))),
             identifier: IdentifierDesign::from_decay(&decay),
             block: BlockDesign::new(config.block),
-            innovation_to_mean: (1.0 / innovation) as f32,
+            innovation_to_mean: 1.0 / innovation,
             readout: config.readout,
-            forgetting: (1.0 - libm::pow(1.0 - forgetting, 1.0 / f64::from(sharing))) as f32,
+            forgetting: -libm::expm1(-fading / f64::from(config.sharing)) as f32,
             covariance,
             noise,
-            any_drift: config.drift.iter().any(|&c| c != 0.0),
+            any_drift: config.any_drift,
             period2: (period * period) as f32,
             parameter_settle: samples("parameter_settle", config.parameter_settle, period)?,
             state_settle: samples("state_settle", config.state_settle, period)?,

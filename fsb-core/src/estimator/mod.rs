@@ -11,6 +11,7 @@
 //! | `shared` | the state that depends on time alone: windows, gains, weights, covariance |
 //! | `step` | the two calls a tick |
 //! | `advance` | what a measurement instant does |
+//! | `parts` | an estimator without its shape: code that is there once for all shapes |
 //! | `readings` | what is handed out |
 //! | `output` | the types of that |
 
@@ -19,6 +20,7 @@ mod axis;
 mod config;
 mod design;
 mod output;
+mod parts;
 mod readings;
 mod schedule;
 mod shared;
@@ -30,8 +32,9 @@ pub use output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
 
 use crate::error::ConfigError;
 use crate::readout::ParameterState;
-use axis::{Axis, Clocks};
-use shared::{IdentifierClock, ObserverClock};
+use axis::Axis;
+use parts::{Each, Parts};
+use shared::Progress;
 
 /// k of N axes (P parameters), their positions and velocities, from positions and known inputs alone.
 ///
@@ -47,18 +50,9 @@ use shared::{IdentifierClock, ObserverClock};
 #[derive(Clone, Copy, Debug)]
 pub struct Estimator<const N: usize, const P: usize> {
     design: EstimatorDesign<N, P>,
-    observer: ObserverClock,
-    identifier: IdentifierClock,
+    progress: Progress,
     axes: [Axis; N],
     parameters: [ParameterState; P],
-    /// Control periods since the last measurement instant.
-    substep: u32,
-    started: bool,
-    /// Every axis has been measured and not been lost.
-    all_measured: bool,
-    /// The next measurement can go the quick way.
-    steady: bool,
-    counters: Counters,
 }
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
@@ -73,37 +67,37 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Starts empty on a design made before.
     pub fn with_design(design: EstimatorDesign<N, P>) -> Self {
         Self {
-            observer: ObserverClock::START,
-            identifier: IdentifierClock::start(design.common.schedule.turn),
+            progress: Progress::start(&design.common),
             axes: [Axis::start(design.common.noise); N],
             parameters: [ParameterState::START; P],
-            substep: 0,
-            started: false,
-            all_measured: false,
-            steady: false,
-            counters: Counters::default(),
             design,
         }
     }
 
     /// Forgets everything but the design and the counters.
     pub fn reset(&mut self) {
-        *self = Self { counters: self.counters, ..Self::with_design(self.design) };
+        let counters = self.progress.counters;
+        self.progress = Progress { counters, ..Progress::start(&self.design.common) };
+        self.axes = [Axis::start(self.design.common.noise); N];
+        self.parameters = [ParameterState::START; P];
     }
 
     /// Starts the identification anew (section III of the paper: "each reinitialization"), the observer going on. Until
     /// the new k̂ is valid the observer predicts with the nominal parameter, if there is one.
     pub fn reset_identifier(&mut self) {
-        let next = if self.started { self.observer.count.saturating_add(1) } else { 0 };
-        self.identifier = IdentifierClock::start(next.saturating_add(self.design.common.schedule.turn));
-        self.parameters = [ParameterState::START; P];
-        self.steady = false;
-        for (index, axis) in self.axes.iter_mut().enumerate() {
-            axis.reset_identifier(self.design.common.noise);
-            if let Some(own) = self.design.own(index) {
-                let clocks = Clocks { identifier: &self.identifier, observer: &self.observer };
-                axis.change_source(&ParameterState::START, &own, clocks, &self.design.common);
-            }
+        self.parts().reset_identifier();
+    }
+
+    /// The same without its shape.
+    #[inline(always)]
+    fn parts(&mut self) -> Parts<'_> {
+        let design = &self.design;
+        Parts {
+            common: &design.common,
+            each: Each { axes: &design.axes, parameters: &design.parameters },
+            progress: &mut self.progress,
+            axes: &mut self.axes,
+            parameters: &mut self.parameters,
         }
     }
 }

@@ -2,7 +2,6 @@
 
 use super::Estimator;
 use super::axis::Source;
-use super::design::EstimatorDesign;
 use super::output::{AxisDiagnostics, AxisState, Counters, StateStatus};
 use crate::observer::NoiseGain;
 use crate::readout::{Parameter, ParameterStatus};
@@ -21,9 +20,9 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The states at the present control instant that may be used: predicted from the last measurement instant with what
     /// was applied since.
     pub fn states(&self) -> [Option<AxisState>; N] {
-        let (gains, count) = (&self.observer.gains, self.observer.count);
+        let (gains, count) = (&self.progress.observer.gains, self.progress.observer.count);
         let per_period = self.design.common.observer.per_period;
-        if self.substep == 0 {
+        if self.progress.substep == 0 {
             return self.axes.each_ref().map(|axis| {
                 (count >= axis.usable_at).then(|| AxisState {
                     position: axis.observer.position(0.0, gains),
@@ -32,7 +31,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             });
         }
         // Time since the last measurement instant over T.
-        let t = self.substep as f32 * self.design.common.substep_share;
+        let t = self.progress.substep as f32 * self.design.common.substep_share;
         let half_t2 = 0.5 * t * t;
         self.axes.each_ref().map(|axis| {
             (count >= axis.usable_at).then(|| {
@@ -49,7 +48,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     pub fn state_status(&self) -> [StateStatus; N] {
         self.axes.each_ref().map(|axis| match axis.source {
             _ if !axis.measured => StateStatus::NotMeasured,
-            _ if self.observer.count < axis.settled_at => StateStatus::Settling,
+            _ if self.progress.observer.count < axis.settled_at => StateStatus::Settling,
             Source::Identified => StateStatus::Identified,
             Source::Nominal => StateStatus::Nominal,
             Source::Provisional | Source::Nothing => StateStatus::NoParameter,
@@ -61,7 +60,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// one that came. Good to a few per cent otherwise; for reports, not for the tick.
     pub fn state_sd(&self) -> [Option<AxisState>; N] {
         let (tuning, period) = (self.design.common.observer_tuning, self.design.common.measurement_period);
-        let gain = NoiseGain::at_sample(self.observer.count, tuning, period);
+        let gain = NoiseGain::at_sample(self.progress.observer.count, tuning, period);
         self.axes.each_ref().map(|axis| {
             // Means over M samples have an M-th of the variance.
             let variance = axis.noise.measurement_variance() * self.design.common.block_length as f32;
@@ -76,9 +75,9 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     pub fn diagnostics(&self) -> [AxisDiagnostics; N] {
         core::array::from_fn(|index| {
             let axis = self.axes.get(index).copied().unwrap_or_default();
-            let drift = self.design.drift.get(index).copied().unwrap_or(0.0);
-            let ratio = self.parameters.get(EstimatorDesign::<N, P>::parameter_of(index)).map(|p| p.ratio);
-            let zu = self.identifier.unit.zu();
+            let drift = self.design.axes.get(index).map_or(0.0, |axis| axis.drift);
+            let ratio = self.parameters.get(if P == 1 { 0 } else { index }).map(|p| p.ratio);
+            let zu = self.progress.identifier.unit.zu();
             let scale = self.design.common.identifier.scale;
             AxisDiagnostics {
                 z2: (axis.cascade.z2() - drift * zu) / scale,
@@ -94,6 +93,6 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
 
     /// What has been missed or rejected.
     pub const fn counters(&self) -> Counters {
-        self.counters
+        self.progress.counters
     }
 }

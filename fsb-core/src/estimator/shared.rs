@@ -1,10 +1,40 @@
 //! The state that depends on time alone, shared by all axes: windows, gains, weights, covariance.
 
 use super::design::Common;
+use super::output::Counters;
 use crate::identifier::{Coefficients, UnitChain};
 use crate::observer::Gains;
 use crate::readout::NoiseShape;
 use crate::window::Window;
+
+/// Where the estimator is in time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Progress {
+    pub observer: ObserverClock,
+    pub identifier: IdentifierClock,
+    /// Control periods since the last measurement instant.
+    pub substep: u32,
+    pub started: bool,
+    /// Every axis has been measured and not been lost.
+    pub all_measured: bool,
+    /// The next measurement can go the quick way.
+    pub steady: bool,
+    pub counters: Counters,
+}
+
+impl Progress {
+    pub fn start(common: &Common) -> Self {
+        Self {
+            observer: ObserverClock::START,
+            identifier: IdentifierClock::start(common.schedule.turn),
+            substep: 0,
+            started: false,
+            all_measured: false,
+            steady: false,
+            counters: Counters::default(),
+        }
+    }
+}
 
 /// The observer's part.
 #[derive(Clone, Copy, Debug)]

@@ -25,15 +25,16 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// # Errors
     /// As [`measure`](Self::measure).
     pub fn measure_raw(&mut self, positions: &[f32; N]) -> Result<(), OutOfStep> {
-        let due = self.substep >= self.design.common.substeps;
-        if due && self.steady && self.all_within(positions, self.design.common.position_limit) {
+        let due = self.progress.substep >= self.design.common.substeps;
+        if due && self.progress.steady && self.all_within(positions, self.design.common.position_limit) {
             self.advance_steadily(positions);
             return Ok(());
         }
-        if self.started && !due {
-            return Err(OutOfStep { missing: self.design.common.substeps - self.substep });
+        if self.progress.started && !due {
+            return Err(OutOfStep { missing: self.design.common.substeps - self.progress.substep });
         }
-        self.advance(*positions);
+        let mut positions = *positions;
+        self.parts().advance(&mut positions);
         Ok(())
     }
 
@@ -45,8 +46,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
 
     /// The inputs held over the control period that begins now. Before the first measurement nothing happens.
     pub fn apply(&mut self, inputs: &[f32; N]) {
-        if self.substep < self.design.common.substeps
-            && self.started
+        if self.progress.substep < self.design.common.substeps
+            && self.progress.started
             && self.all_within(inputs, self.design.common.input_limit)
         {
             self.hold(inputs);
@@ -62,7 +63,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
                 axis.moments = InputMoments { j1: f, j2: 0.5 * f };
             }
         } else {
-            if self.substep == 0 {
+            if self.progress.substep == 0 {
                 for axis in &mut self.axes {
                     axis.moments = InputMoments::ZERO;
                 }
@@ -71,7 +72,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
                 axis.moments.hold(f, &self.design.common.substep);
             }
         }
-        self.substep += 1;
+        self.progress.substep += 1;
     }
 
     #[inline(never)]
@@ -89,20 +90,20 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         }
         let (from, to) = (self.repaired_inputs(*from), self.repaired_inputs(*to));
         for (axis, (&from, &to)) in self.axes.iter_mut().zip(from.iter().zip(&to)) {
-            if self.substep == 0 {
+            if self.progress.substep == 0 {
                 axis.moments = InputMoments::ZERO;
             }
             axis.moments.ramp(from, to, &self.design.common.substep);
         }
-        self.substep += 1;
+        self.progress.substep += 1;
     }
 
     /// Goes past a measurement instant at which nothing was measured. False before the first measurement.
     fn begin_substep(&mut self) -> bool {
-        if self.started && self.substep >= self.design.common.substeps {
-            self.advance([f32::NAN; N]);
+        if self.progress.started && self.progress.substep >= self.design.common.substeps {
+            self.parts().advance(&mut [f32::NAN; N]);
         }
-        self.started
+        self.progress.started
     }
 
     /// The inputs, a rejected one replaced by the mean of the axis's input over the interval so far.
@@ -112,9 +113,9 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             if f.abs() <= common.input_limit {
                 continue;
             }
-            self.counters.rejected_inputs = self.counters.rejected_inputs.saturating_add(1);
+            self.progress.counters.rejected_inputs = self.progress.counters.rejected_inputs.saturating_add(1);
             // j1 is the mean of the interval before, or the part of the present one's that is known.
-            let periods = if self.substep == 0 { common.substeps } else { self.substep };
+            let periods = if self.progress.substep == 0 { common.substeps } else { self.progress.substep };
             *f = axis.moments.j1 / (periods as f32 * common.substep_share);
         }
         inputs

@@ -5,7 +5,7 @@
 //! var ŷ = (1-p)(1+4p+5p²)/(1+p)³ σ²,   var v̂ = 2(1-p)³/(1+p)³ σ²/T².
 
 use super::gains::{Gains, ObserverDesign};
-use crate::tuning::{Decay, Tuning};
+use crate::tuning::Tuning;
 use crate::window::Window;
 
 /// Covariance of (ŷ, T v̂) for measurement noise of variance one.
@@ -67,8 +67,7 @@ impl NoiseGain {
             libm::fmin(f64::from(n) / f64::from(Self::STEPS), 8.0 / (tuning.lambda * period * f64::from(Self::STEPS)))
         };
         let step = libm::fmax(samples, 1.0) * period;
-        let (c, alpha) = (-libm::expm1(-tuning.lambda * step), -libm::expm1(-tuning.q * step));
-        let design = ObserverDesign::from_decay(&Decay { period: step, c, p: 1.0 - c, alpha, rho: 1.0 - alpha });
+        let design = ObserverDesign::from_decay(&tuning.plain_decay(step));
         let steps = n.min(Self::STEPS);
         let begin = f64::from(n) * period - f64::from(steps) * step;
         // Begins at the first sample, or so long ago that it does not matter where.

@@ -13,7 +13,7 @@
 //! weighing the mean D-fold is the same filter at a coarser step (design, section 11).
 
 use crate::identifier::{Coefficients, IdentifierDesign};
-use crate::tuning::Decay;
+use crate::tuning::Tuning;
 use crate::window::Window;
 
 /// Constants of the covariance recursion.
@@ -44,15 +44,14 @@ impl CovarianceDesign {
     /// λ D T is kept at about this; steps of more than half of it, or so, are taken as they are.
     const COARSE: f64 = 0.08;
 
-    /// For an identifier with the rates `lambda` and `q` at `period`, with the share `forgetting` forgotten in each step
-    /// by each of the `sharing` axes of a parameter.
-    pub fn new(lambda: f64, q: f64, period: f64, forgetting: f64, sharing: u32) -> Self {
-        let strides = Self::COARSE / (libm::fmax(lambda, q) * period);
+    /// For an identifier at `period` whose memory fades by e^(-`fading`) in each step, together with all the `sharing` axes
+    /// of a parameter.
+    pub fn new(tuning: Tuning, period: f64, fading: f64, sharing: u32) -> Self {
+        let strides = Self::COARSE / (libm::fmax(tuning.lambda, tuning.q) * period);
         let stride = if strides >= 1.75 { libm::round(strides) } else { 1.0 };
-        let coarse = stride * period;
-        let (c, alpha) = (-libm::expm1(-lambda * coarse), -libm::expm1(-q * coarse));
-        let decay = Decay { period: coarse, c, p: 1.0 - c, alpha, rho: 1.0 - alpha };
-        let p = 1.0 - c;
+        let decay = tuning.plain_decay(stride * period);
+        let (c, p) = (decay.c, decay.p);
+        let forgetting = |steps: f64| -libm::expm1(-steps * fading) as f32;
         Self {
             coarse: IdentifierDesign::at_scale(&decay, 1.0),
             c: c as f32,
@@ -62,9 +61,9 @@ impl CovarianceDesign {
             steps: stride as u32,
             stride: stride as f32,
             per_stride: (1.0 / stride) as f32,
-            mu: libm::pow(1.0 - forgetting, stride) as f32,
-            noise_forgetting: (1.0 - libm::pow(1.0 - forgetting, 2.0 * stride)) as f32,
-            forgetting: (1.0 - libm::pow(1.0 - forgetting, stride / f64::from(sharing))) as f32,
+            mu: 1.0 - forgetting(stride),
+            noise_forgetting: forgetting(2.0 * stride),
+            forgetting: forgetting(stride / f64::from(sharing)),
         }
     }
 

@@ -61,12 +61,12 @@ impl NoiseLevel {
 
 /// Variance of the difference of two innovations that follow each other over that of the noise, for an observer with
 /// p = e^(-λT): the sum of squares of the impulse response of (1 - z⁻¹)³/(1 - p z⁻¹)². After 64 terms nothing is left of it.
-pub(crate) fn innovation_step_gain(p: f64) -> f64 {
-    let numerator = [1.0, -3.0, 3.0, -1.0];
+pub(crate) fn innovation_step_gain(p: f32) -> f32 {
+    // The impulse, differenced three times.
+    let mut inputs = [1.0, -3.0, 3.0, -1.0].into_iter();
     let (mut before, mut last, mut sum) = (0.0, 0.0, 0.0);
-    for n in 0..64 {
-        let input = numerator.get(n).copied().unwrap_or(0.0);
-        let response = input + 2.0 * p * last - p * p * before;
+    for _ in 0..64 {
+        let response = inputs.next().unwrap_or(0.0) + p * (2.0 * last - p * before);
         before = last;
         last = response;
         sum += response * response;

@@ -31,13 +31,13 @@ pub enum Memory {
 }
 
 impl Memory {
-    /// 1 - e^(-T/τ); zero for infinite memory.
-    pub(crate) fn forgetting(self, period: f64) -> Result<f64, ConfigError> {
+    /// T/τ; zero for infinite memory.
+    pub(crate) fn fading(self, period: f64) -> Result<f64, ConfigError> {
         match self {
             Self::Infinite => Ok(0.0),
             Self::Fading { tau } => {
                 let x = period / positive("memory.tau", tau)?;
-                if x > 1.0 { Err(ConfigError::OutOfRange("memory.tau")) } else { Ok(-libm::expm1(-x)) }
+                if x > 1.0 { Err(ConfigError::OutOfRange("memory.tau")) } else { Ok(x) }
             }
         }
     }
