@@ -29,10 +29,13 @@ fn marker(ticks: usize) -> Pin {
     Pin::new(&once.into_iter().cycle().take(2 * ticks).collect::<Vec<_>>())
 }
 
+fn motor(duties: &[u16]) -> Motor {
+    let calls = duties.iter().flat_map(|&duty| [Duty::max_duty_cycle(FULL), Duty::set_duty_cycle(duty)]);
+    Motor::new(&calls.collect::<Vec<_>>())
+}
+
 fn motors(duties: &[u16]) -> [Motor; 6] {
-    let calls: Vec<Duty> =
-        duties.iter().flat_map(|&duty| [Duty::max_duty_cycle(FULL), Duty::set_duty_cycle(duty)]).collect();
-    std::array::from_fn(|_| Motor::new(&calls))
+    std::array::from_fn(|_| motor(duties))
 }
 
 fn done(parts: ([Motor; 6], Pin)) {
@@ -86,9 +89,8 @@ fn saturation_is_bounded_and_reported_once() {
 #[test]
 fn a_failing_motor_is_named() {
     let broken = MockError::Io(ErrorKind::NotConnected);
-    let mut motors = motors(&[hover()]);
-    motors[4]
-        .update_expectations(&[Duty::max_duty_cycle(FULL), Duty::set_duty_cycle(hover()).with_error(broken.clone())]);
+    let failing = [Duty::max_duty_cycle(FULL), Duty::set_duty_cycle(hover()).with_error(broken.clone())];
+    let motors = std::array::from_fn(|index| if index == 4 { Motor::new(&failing) } else { motor(&[hover()]) });
     let mut flight = ControlLoop::new(&config(), motors, marker(1)).unwrap();
     assert_eq!(flight.tick(None, &HERE), Err(LoopError::Motor(4, broken)));
     done(flight.release());
@@ -137,7 +139,9 @@ fn a_wrong_configuration_is_named() {
     let refused = |change: fn(&mut LoopConfig)| {
         let mut config = config();
         change(&mut config);
-        let error = ControlLoop::new(&config, motors(&[]), marker(0)).err();
+        let (motors, pin) = (motors(&[]), marker(0));
+        let error = ControlLoop::new(&config, motors.clone(), pin.clone()).err();
+        done((motors, pin));
         error.expect("refused").to_string()
     };
     assert_eq!(refused(|c| c.rotation.period = 2e-3), LoopConfigError::PeriodsDiffer.to_string());
