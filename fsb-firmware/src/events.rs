@@ -13,7 +13,7 @@ pub enum Event {
     ParameterValid(u8),
     /// A parameter may no longer be used, and why.
     ParameterLost(u8, ParameterStatus),
-    /// Measurements, this many at once, were not finite or beyond the limit.
+    /// Measurements, this many at once, were infinite or beyond the limit. NaN counts as missing.
     MeasurementRejected(u32),
     /// A sample came before its instant and was not used.
     SampleEarly,

@@ -113,7 +113,7 @@ fn bad_samples_are_told() {
         flight.tick(Some(&level()), &HERE).unwrap();
     }
     let mut bad = level();
-    bad.position[1] = Some(f32::NAN);
+    bad.position[1] = Some(f32::INFINITY);
     bad.angles[0] = Some(1e9);
     bad.attitude[1][1] = f32::NAN;
     flight.tick(Some(&bad), &HERE).unwrap();
