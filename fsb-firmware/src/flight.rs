@@ -68,6 +68,7 @@ fn fly() -> Result<(), &'static str> {
     if overruns > 0 {
         return Err("a tick took longer than its period");
     }
+    println!("end");
     Ok(())
 }
 
