@@ -82,8 +82,8 @@ fn inverse(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     for column in 0..N {
         let size = |row: &usize| left.get(*row).and_then(|row| row.get(column)).map_or(0.0, |entry| entry.abs());
         let pivot_row = (column..N).max_by(|a, b| size(a).total_cmp(&size(b)))?;
-        left.swap(column, pivot_row);
-        right.swap(column, pivot_row);
+        exchange(&mut left, column, pivot_row);
+        exchange(&mut right, column, pivot_row);
         let (lefts, rights) = (*left.get(column)?, *right.get(column)?);
         let pivot = *lefts.get(column)?;
         // Written so that NaN fails it.
@@ -98,6 +98,16 @@ fn inverse(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
         }
     }
     Some(right)
+}
+
+/// `swap`, which could panic.
+fn exchange(rows: &mut [[f64; N]; N], a: usize, b: usize) {
+    let (Some(&of_a), Some(&of_b)) = (rows.get(a), rows.get(b)) else { return };
+    for (index, row) in [(a, of_b), (b, of_a)] {
+        if let Some(slot) = rows.get_mut(index) {
+            *slot = row;
+        }
+    }
 }
 
 #[cfg(test)]

@@ -124,8 +124,9 @@ impl<M: SetDutyCycle, P: OutputPin> ControlLoop<M, P> {
             if !(0.0..=1.0).contains(&share) {
                 saturated |= 1 << index;
             }
-            // `as` takes what is negative or NaN to 0.
-            *duty = (share.min(1.0) * full + 0.5) as u16;
+            let bounded = if share > 1.0 { 1.0 } else { share };
+            // `as` takes what is negative to 0, and what is NaN.
+            *duty = (bounded * full + 0.5) as u16;
             *thrust = f32::from(*duty) / full * self.allocation.thrust_max();
             if let Err(error) = motor.set_duty_cycle(*duty)
                 && outcome.is_ok()

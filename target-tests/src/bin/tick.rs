@@ -13,6 +13,7 @@
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
+use fsb_core::control::Reference;
 use semihosting::{println, process};
 use target_tests::board::{instructions, overhead};
 use target_tests::scenario::{Faults, Scenario};
@@ -20,6 +21,8 @@ use target_tests::six::{
     DESIGN_BYTES, STATE_BYTES, Six, one, one_apply, one_measure, raw, six_apply, six_measure, six_parameters,
     six_states,
 };
+
+use target_tests::whole_loop::{flight, loop_tick, sample};
 
 /// A minute at 1 kHz.
 const TICKS: u32 = 60_000;
@@ -160,6 +163,23 @@ fn count() {
         tick += 1;
     });
     alone.print();
+    whole_loop();
+}
+
+fn whole_loop() {
+    let mut cost = Cost::new("control_loop_tick");
+    let mut flight = flight().expect("a good configuration");
+    let mut scenario = Scenario::new(1e-3, Faults::Without);
+    let wanted = [Reference::default(); 6];
+    let nothing = overhead();
+    for tick in 0..TICKS {
+        let sample = sample(&scenario.step());
+        let start = instructions();
+        let _ = black_box(loop_tick(&mut flight, &sample, &wanted));
+        let end = instructions();
+        cost.add(tick, end.wrapping_sub(start).saturating_sub(nothing));
+    }
+    cost.print();
 }
 
 /// Words painted below the stack pointer.

@@ -35,16 +35,16 @@ pub fn run() -> Result<()> {
         complaints.extend(check(&listing, roots)?);
     }
     if !complaints.is_empty() {
-        bail!("in the tick: {}", complaints.join("; "));
+        bail!("in the tick: {}", complaints.iter().map(|complaint| short(complaint)).collect::<Vec<_>>().join("; "));
     }
     println!("no allocation, transcendental, soft float, recursion, indirect call or panic in any of them");
     let culprits = Listing::of(&TARGET_TESTS.build("culprits")?)?;
     for (culprit, rule) in CULPRITS {
         let complaints = check(&culprits, &[culprit])?;
-        if !complaints.iter().any(|complaint| complaint.starts_with(rule)) {
+        let Some(caught) = complaints.iter().find(|complaint| complaint.starts_with(rule)) else {
             bail!("{culprit} breaks the rule `{rule}` and was not caught: {complaints:?}");
-        }
-        println!("caught: {}", complaints.first().map_or("", String::as_str));
+        };
+        println!("{culprit} is caught: {}", short(caught));
     }
     Ok(())
 }
@@ -87,6 +87,14 @@ fn name_rule(name: &str) -> Option<&'static str> {
     } else {
         None
     }
+}
+
+/// Without the folders in front of a crate's.
+fn short(complaint: &str) -> String {
+    let words = complaint
+        .split(' ')
+        .map(|word| if word.starts_with('/') { word.rsplit('/').next().unwrap_or(word) } else { word });
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// Code from a forbidden source file that was inlined, so that no call tells of it.

@@ -48,7 +48,8 @@ impl Instruction {
         if !(branch || self.mnemonic.starts_with("cb")) {
             return None;
         }
-        let target = self.operands.split(',').next_back()?.split_whitespace().next()?;
+        // Names of generic functions have commas too.
+        let target = self.operands.split('<').next()?.split(',').next_back()?.trim();
         u32::from_str_radix(target, 16).ok()
     }
 
@@ -191,16 +192,16 @@ mod tests {
 a():
 /src/a.rs:12
  8000100:\tpush\t{r4, lr}
- 8000102:\tbl\t8000110 <b::c>
+ 8000102:\tbl\t8000110 <b::C<_,_>>
 /src/lib.rs:7 (discriminator 2)
  8000106:\tldr.w\tr0, [r4, #1024]\t@ 0x400
  800010a:\tbne.n\t8000102 <a+0x2>
  800010c:\tpop\t{r4, pc}
  800010e:\tnop
 
-08000110 <b::c>:
+08000110 <b::C<_,_>>:
  8000110:\tblx\tr3
- 8000112:\tb.w\t8000110 <b::c>
+ 8000112:\tb.w\t8000110 <b::C<_,_>>
 ";
 
     #[test]

@@ -35,7 +35,7 @@ pub fn ticks(program: &Path, listing: &Listing, argument: &str, roots: &[&str]) 
     let entries = roots.iter().map(|root| listing.named(root)).collect::<Result<Vec<u32>>>()?;
     let mut ticks: Vec<Tick> = Vec::new();
     let mut before: Option<u32> = None;
-    let mut account = |at: u32, next: Option<u32>, ticks: &mut Vec<Tick>| -> Result<()> {
+    let account = |at: u32, next: Option<u32>, ticks: &mut Vec<Tick>| -> Result<()> {
         let (instruction, after) =
             code.get(&at).with_context(|| format!("executed {at:#x}, which is no instruction"))?;
         if at == entries[0] {
@@ -50,6 +50,11 @@ pub fn ticks(program: &Path, listing: &Listing, argument: &str, roots: &[&str]) 
         Ok(())
     };
     emulator::traced(program, argument, &ranges.join(","), |line| {
+        // The instruction logged last was put off for an interrupt of the emulator's own; it will be logged again.
+        if line.starts_with("Stopped execution of TB chain") {
+            before = None;
+            return Ok(());
+        }
         let Some(at) = address(line) else { bail!("the emulator says: {line}") };
         if let Some(before) = before {
             account(before, Some(at), &mut ticks)?;
