@@ -10,12 +10,30 @@ use super::listing::Listing;
 use super::programs::{PEERS, TARGET_TESTS};
 use super::{emulator, trace};
 
-/// The traced runs: argument of the program, name of what is measured, roots (the first begins a tick).
-const TRACES: &[(&str, &str, &[&str])] = &[
-    ("trace-blocks", "six_axes_blocks_of_10", &["six_measure", "six_apply"]),
-    ("trace-singles", "six_axes_block_1", &["six_measure", "six_apply"]),
-    ("trace-between", "control_tick_without_measurement", &["six_states", "six_apply"]),
-    ("trace-one", "one_axis_block_1", &["one_measure", "one_apply"]),
+/// A traced run.
+struct Trace {
+    /// Of the program.
+    argument: &'static str,
+    /// What is measured.
+    name: &'static str,
+    /// What counts; the first begins a tick.
+    roots: &'static [&'static str],
+    /// What does not.
+    others: &'static [&'static str],
+}
+
+const SIX: &[&str] = &["six_measure", "six_apply"];
+const READ: &[&str] = &["six_states", "six_parameters"];
+const TRACES: &[Trace] = &[
+    Trace { argument: "trace-blocks", name: "six_axes_blocks_of_10", roots: SIX, others: READ },
+    Trace { argument: "trace-singles", name: "six_axes_block_1", roots: SIX, others: READ },
+    Trace {
+        argument: "trace-between",
+        name: "control_tick_without_measurement",
+        roots: &["six_states", "six_apply"],
+        others: &["six_measure", "six_parameters"],
+    },
+    Trace { argument: "trace-one", name: "one_axis_block_1", roots: &["one_measure", "one_apply"], others: &[] },
 ];
 
 /// Counts, sums, compares with `budgets.toml`.
@@ -49,8 +67,8 @@ fn cycles(program: &Path) -> Result<Measured> {
     let listing = Listing::of(program)?;
     let mut measured = Vec::new();
     println!("cycles by the table (ARM DDI 0439): the fewest it allows, and the most, which have the budget");
-    for (argument, name, roots) in TRACES {
-        let ticks = trace::ticks(program, &listing, argument, roots)?;
+    for Trace { argument, name, roots, others } in TRACES {
+        let ticks = trace::ticks(program, &listing, argument, roots, others)?;
         let mean = |each: &dyn Fn(&trace::Tick) -> u32| {
             let sum: u64 = ticks.iter().map(|tick| u64::from(each(tick))).sum();
             (sum as f64 / ticks.len() as f64 * 10.0).round() / 10.0

@@ -19,9 +19,9 @@ pub struct Tick {
 }
 
 /// Runs `program` with `argument` and follows it through the functions reachable from `roots`. A tick is what is between
-/// two entries of the first of `roots`; only what runs in (or is called from) `roots` counts.
-pub fn ticks(program: &Path, listing: &Listing, argument: &str, roots: &[&str]) -> Result<Vec<Tick>> {
-    let reachable = listing.reachable(roots)?;
+/// two entries of the first of `roots`; what runs in or is called from `roots` counts, and from `others` does not.
+pub fn ticks(program: &Path, listing: &Listing, argument: &str, roots: &[&str], others: &[&str]) -> Result<Vec<Tick>> {
+    let reachable = listing.reachable(&[roots, others].concat())?;
     let mut code: HashMap<u32, (&Instruction, Option<u32>)> = HashMap::new();
     let mut ranges = Vec::new();
     for function in &reachable {
@@ -33,17 +33,22 @@ pub fn ticks(program: &Path, listing: &Listing, argument: &str, roots: &[&str]) 
         }
     }
     let entries = roots.iter().map(|root| listing.named(root)).collect::<Result<Vec<u32>>>()?;
+    let excluded = others.iter().map(|other| listing.named(other)).collect::<Result<Vec<u32>>>()?;
     let mut ticks: Vec<Tick> = Vec::new();
+    let mut counting = false;
     let mut before: Option<u32> = None;
-    let account = |at: u32, next: Option<u32>, ticks: &mut Vec<Tick>| -> Result<()> {
+    let mut account = |at: u32, next: Option<u32>, ticks: &mut Vec<Tick>| -> Result<()> {
         let (instruction, after) =
             code.get(&at).with_context(|| format!("executed {at:#x}, which is no instruction"))?;
         if at == entries[0] {
             ticks.push(Tick::default());
         }
-        let Some(tick) = ticks.last_mut() else { return Ok(()) };
+        if entries.contains(&at) || excluded.contains(&at) {
+            counting = entries.contains(&at);
+        }
+        let Some(tick) = ticks.last_mut().filter(|_| counting) else { return Ok(()) };
         // The next one logged is in another call where this one returned to the caller.
-        let left = next.is_none_or(|next| entries.contains(&next));
+        let left = next.is_none_or(|next| entries.contains(&next) || excluded.contains(&next));
         let following = next.filter(|_| !left).and_then(|next| code.get(&next)).map(|(instruction, _)| *instruction);
         tick.instructions += 1;
         tick.cycles += cycles::of(instruction, left || next != *after, following);
