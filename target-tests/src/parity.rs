@@ -90,7 +90,7 @@ fn fly(
 
 /// One control tick, and all it puts out.
 fn step(six: &mut Six, now: &Tick, before: &[f32; 6], substeps: u32, tick: u32, hash: &mut Hash) {
-    if tick % substeps == 0
+    if tick.is_multiple_of(substeps)
         && let Some([x, y, z, p, q, r]) = now.positions
     {
         let accepted = six.translation.measure(&[x, y, z]).is_ok() && six.rotation.measure(&[p, q, r]).is_ok();

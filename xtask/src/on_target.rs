@@ -14,7 +14,6 @@ mod budgets;
 mod cycles;
 mod emulator;
 mod listing;
-mod programs;
 mod trace;
 
 pub mod cost;
@@ -23,4 +22,5 @@ pub mod examples;
 pub mod firmware;
 pub mod panics;
 pub mod parity;
+pub mod programs;
 pub mod size;

@@ -25,7 +25,11 @@ pub const STEPS: &[Step] = &[
     Step { name: "hygiene", about: "rules on the text of the repository", run: hygiene::run },
     Step { name: "licences", about: "every dependency under a licence of the allow-list", run: licences::run },
     Step { name: "clippy", about: "lints, all targets and features, warnings denied", run: lints::clippy },
-    Step { name: "target", about: "the core on thumbv7em with every feature combination", run: target::run },
+    Step {
+        name: "target",
+        about: "core and control loop on thumbv7em with every feature combination",
+        run: target::run,
+    },
     Step { name: "firmware", about: "the control loop flies on the emulator", run: firmware::run },
     Step { name: "parity", about: "the same bits on host and target", run: parity::run },
     Step { name: "cost", about: "instructions and cycles of a tick, within budgets.toml", run: cost::run },

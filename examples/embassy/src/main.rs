@@ -31,9 +31,7 @@ static BYTES: Channel<CriticalSectionRawMutex, u8, 64> = Channel::new();
 
 #[panic_handler]
 fn panic(_: &PanicInfo) -> ! {
-    loop {
-        cortex_m::asm::udf();
-    }
+    cortex_m::asm::udf()
 }
 
 #[exception]

@@ -10,9 +10,7 @@ use core::panic::PanicInfo;
 
 #[panic_handler]
 fn panic(_: &PanicInfo) -> ! {
-    loop {
-        cortex_m::asm::udf();
-    }
+    cortex_m::asm::udf()
 }
 
 #[rtic::app(device = stm32f4::stm32f405, dispatchers = [EXTI0])]
@@ -72,7 +70,7 @@ mod app {
         let wanted = [Reference::default(); 6];
         let Ok(_) = context.local.flight.tick(sample.as_ref(), &wanted);
         *context.local.ticks += 1;
-        if *context.local.ticks % (RATE / 10) == 0 {
+        if context.local.ticks.is_multiple_of(RATE / 10) {
             let now = context.local.flight.parameters();
             context.shared.parameters.lock(|parameters| *parameters = now);
             // Refused where the last one is still being sent.

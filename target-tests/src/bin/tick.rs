@@ -100,7 +100,7 @@ fn six_ticks(block: u32, substeps: u32, ticks: u32, each: &mut dyn FnMut(u32, Pa
     for tick in 0..ticks {
         let now = scenario.step();
         let positions = raw(&now);
-        let measured = tick % substeps == 0;
+        let measured = tick.is_multiple_of(substeps);
         let start = instructions();
         if measured {
             let _ = black_box(six_measure(&mut six, &positions));
@@ -215,7 +215,7 @@ fn stack() {
             let now = scenario.step();
             let positions = raw(&now);
             let mut parts = [0; 4];
-            if tick % substeps == 0 && now.positions.is_some() {
+            if tick.is_multiple_of(substeps) && now.positions.is_some() {
                 parts[0] = stack_of(|| {
                     let _ = black_box(six_measure(&mut six, &positions));
                 });
