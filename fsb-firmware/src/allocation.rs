@@ -7,7 +7,7 @@ const N: usize = 6;
 
 /// A wrench from six thrusts: `wrench = forward * thrusts`, and its inverse.
 ///
-/// A wrench is the body-frame force [N] on x, y, z, then the torque [N m] about x, y, z.
+/// A wrench is the body-frame force \[N\] on x, y, z, then the torque \[N m\] about x, y, z.
 #[derive(Clone, Copy, Debug)]
 pub struct Allocation {
     forward: [[f32; N]; N],
@@ -38,7 +38,7 @@ impl fmt::Display for AllocationError {
 impl core::error::Error for AllocationError {}
 
 impl Allocation {
-    /// `forward[i][j]`: component i of the wrench that motor j produces per newton of its thrust. `thrust_max` [N] is
+    /// `forward[i][j]`: component i of the wrench that motor j produces per newton of its thrust. `thrust_max` \[N\] is
     /// what one motor produces at full duty.
     ///
     /// # Errors
@@ -51,17 +51,17 @@ impl Allocation {
         Ok(Self { forward: rounded(forward), inverse: rounded(&inverse), thrust_max: thrust_max as f32 })
     }
 
-    /// The thrusts [N] that produce `wrench`, of any sign and size. Cost: 66 operations.
+    /// The thrusts \[N\] that produce `wrench`, of any sign and size. Cost: 66 operations.
     pub fn thrusts(&self, wrench: &[f32; N]) -> [f32; N] {
         product(&self.inverse, wrench)
     }
 
-    /// The wrench that `thrusts` [N] produce. Cost: 66 operations.
+    /// The wrench that `thrusts` \[N\] produce. Cost: 66 operations.
     pub fn wrench(&self, thrusts: &[f32; N]) -> [f32; N] {
         product(&self.forward, thrusts)
     }
 
-    /// What one motor produces at full duty [N].
+    /// What one motor produces at full duty \[N\].
     pub const fn thrust_max(&self) -> f32 {
         self.thrust_max
     }

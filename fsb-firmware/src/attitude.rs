@@ -11,7 +11,7 @@ pub fn attitude_from_quaternion([w, x, y, z]: [f32; 4]) -> Attitude {
     ]
 }
 
-/// From the Euler angles φ, θ, ψ [rad] of (2), by `micromath`: no entry is off by more than 2.5e-3 for angles up to π, which
+/// From the Euler angles φ, θ, ψ \[rad\] of (2), by `micromath`: no entry is off by more than 2.5e-3 for angles up to π, which
 /// on a hovering vehicle is 2.5e-3 of its weight as a force along the wrong axis. Where that matters bring the quaternion.
 #[cfg(feature = "micromath")]
 pub fn attitude_from_angles([roll, pitch, yaw]: [f32; 3]) -> Attitude {

@@ -10,7 +10,7 @@ use embedded_hal::pwm::{ErrorType as PwmError, SetDutyCycle};
 
 use crate::plant::FULL_DUTY;
 
-/// Core clock [Hz].
+/// Core clock \[Hz\].
 const CLOCK: u32 = 168_000_000;
 /// Exit status of a fault; a panic gives 101, a failed check 1.
 const FAULT: i32 = 102;
@@ -35,7 +35,7 @@ pub struct Tick {
 }
 
 impl Tick {
-    /// Starts the timer at `rate` [Hz].
+    /// Starts the timer at `rate` \[Hz\].
     pub fn start(mut timer: SYST, rate: u32) -> Self {
         timer.set_clock_source(SystClkSource::Core);
         timer.set_reload(CLOCK / rate - 1);

@@ -15,14 +15,14 @@ pub struct LoopConfig {
     pub rotation: EstimatorConfig<3, 3>,
     /// x, y, z, φ, θ, ψ.
     pub controllers: [TrackingConfig; 6],
-    /// World-frame force [N] and torque [N m] on an axis that has no state or no parameter yet.
+    /// World-frame force \[N\] and torque \[N m\] on an axis that has no state or no parameter yet.
     pub fallback: [f32; 6],
     /// The motors.
     pub allocation: Allocation,
 }
 
 impl LoopConfig {
-    /// Six axes at `period` [s] with the roughly known `mass` [kg] and `inertia` [kg m²], gravity along -z. The translation
+    /// Six axes at `period` \[s\] with the roughly known `mass` \[kg\] and `inertia` \[kg m²\], gravity along -z. The translation
     /// has λ = 2 and 10 (identifier, observer), the rotation 4 and 20; blocks of ten, in which the axes take turns.
     /// Closed-loop poles at -2 (twice) on the translation and at -8 on the rotation.
     pub fn new(period: f64, mass: f64, inertia: [f64; 3], allocation: Allocation) -> Self {

@@ -113,7 +113,7 @@ impl<M: SetDutyCycle, P: OutputPin> ControlLoop<M, P> {
         outcome.map(|()| Report { duties, saturated, input, states })
     }
 
-    /// Sets the duties nearest to `wanted` [N]; returns them, the motors that saturate, and the thrusts [N] they make.
+    /// Sets the duties nearest to `wanted` \[N\]; returns them, the motors that saturate, and the thrusts \[N\] they make.
     #[expect(clippy::type_complexity, reason = "one caller")]
     fn drive(&mut self, wanted: &[f32; 6]) -> ([u16; 6], u8, [f32; 6], Result<(), LoopError<M::Error, P::Error>>) {
         let (mut duties, mut thrusts, mut saturated, mut outcome) = ([0; 6], [0.0; 6], 0, Ok(()));
@@ -170,7 +170,7 @@ impl<M: SetDutyCycle, P: OutputPin> ControlLoop<M, P> {
         self.events.push(self.tick, Event::Reset);
     }
 
-    /// 1/m [1/kg], 1/Ix, 1/Iy, 1/Iz [1/(kg m²)], where they may be used.
+    /// 1/m \[1/kg\], 1/Ix, 1/Iy, 1/Iz \[1/(kg m²)\], where they may be used.
     pub fn parameters(&self) -> [Option<Parameter>; 4] {
         self.axes.parameters()
     }

@@ -8,10 +8,10 @@ use crate::board::{Marker, Motor, Tick, duties};
 use crate::course;
 use crate::plant::{GEOMETRY, THRUST_MAX, Vehicle};
 
-/// Control rate [Hz].
+/// Control rate \[Hz\].
 const RATE: u32 = 1000;
 const SECONDS: u32 = 10;
-/// What the vehicle really is: mass [kg] and inertias [kg m²]. Configured are 1.5 kg and (0.015, 0.015, 0.03) kg m².
+/// What the vehicle really is: mass \[kg\] and inertias \[kg m²\]. Configured are 1.5 kg and (0.015, 0.015, 0.03) kg m².
 const TRUTH: [f64; 4] = [1.8, 0.03, 0.03, 0.06];
 
 #[entry]

@@ -4,11 +4,11 @@
 /// motors 0, 2, 4 by +`tilt` and 1, 3, 5 by -`tilt`, and neighbours turn in opposite directions. z points up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TiltedHexarotor {
-    /// Length of an arm [m].
+    /// Length of an arm \[m\].
     pub arm: f64,
-    /// Tilt of a rotor axis about its arm [rad]. Zero cannot be inverted: no sideways force.
+    /// Tilt of a rotor axis about its arm \[rad\]. Zero cannot be inverted: no sideways force.
     pub tilt: f64,
-    /// Reaction torque of a rotor per thrust [m].
+    /// Reaction torque of a rotor per thrust \[m\].
     pub drag_ratio: f64,
 }
 

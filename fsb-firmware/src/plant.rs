@@ -3,11 +3,11 @@
 
 use fsb_firmware::{Attitude, Sample, TiltedHexarotor};
 
-/// Largest thrust of a motor [N].
+/// Largest thrust of a motor \[N\].
 pub const THRUST_MAX: f64 = 6.0;
 /// The largest value of a motor's duty.
 pub const FULL_DUTY: u16 = 8400;
-/// Gravity [m/s²].
+/// Gravity \[m/s²\].
 const G: f64 = 9.81;
 
 /// The geometry of the vehicle.
@@ -16,11 +16,11 @@ pub const GEOMETRY: TiltedHexarotor = TiltedHexarotor { arm: 0.25, tilt: 0.35, d
 /// Position, attitude and their rates.
 #[derive(Clone, Debug)]
 pub struct Vehicle {
-    /// Mass [kg].
+    /// Mass \[kg\].
     pub mass: f64,
-    /// Ix, Iy, Iz [kg m²].
+    /// Ix, Iy, Iz \[kg m²\].
     pub inertia: [f64; 3],
-    /// x, y, z [m], φ, θ, ψ [rad].
+    /// x, y, z \[m\], φ, θ, ψ \[rad\].
     pub position: [f64; 6],
     /// Their rates.
     pub velocity: [f64; 6],
@@ -58,7 +58,7 @@ impl Vehicle {
         ]
     }
 
-    /// `dt` [s] ahead with the duties held.
+    /// `dt` \[s\] ahead with the duties held.
     pub fn step(&mut self, duties: &[u16; 6], dt: f64) {
         let thrusts = duties.map(|duty| f64::from(duty) / f64::from(FULL_DUTY) * THRUST_MAX);
         let wrench = self.forward.map(|row| row.iter().zip(&thrusts).map(|(a, b)| a * b).sum::<f64>());

@@ -211,7 +211,7 @@ fn stack() {
     for (block, substeps) in [(10, 1), (1, 1), (3, 4)] {
         let mut six = Six::new(block, substeps);
         let mut scenario = Scenario::new(1e-3, Faults::Scripted);
-        for tick in 0..8_000 {
+        for tick in 0..8_000_u32 {
             let now = scenario.step();
             let positions = raw(&now);
             let mut parts = [0; 4];

@@ -65,8 +65,7 @@ fn verdict(budgets: &BTreeMap<String, Budget>, group: &str, measured: &Measured)
             .goal
             .map_or(String::from("-"), |goal| format!("{goal}{}", if *value <= goal { " ok" } else { " ABOVE" }));
         println!("{name:<46} {value:>9} {:>9} {goal:>9}", budget.budget);
-        // Written so that NaN fails it.
-        if !(*value <= budget.budget) {
+        if value.is_nan() || *value > budget.budget {
             complaints.push(format!("{name}: {value}, budget {}", budget.budget));
         }
         if *value < budget.measured * (1.0 - MARGIN) {
