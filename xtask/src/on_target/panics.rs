@@ -35,7 +35,7 @@ pub fn run() -> Result<()> {
 
 fn link(features: &[&str]) -> Result<(bool, String)> {
     let mut arguments = TARGET_TESTS.build_arguments();
-    arguments.extend(["--bin", "panic_free", "--no-default-features"].map(String::from));
+    arguments.extend(["--bin", "panic_free", "--no-default-features", "--features", "never"].map(String::from));
     arguments.extend(features.iter().map(|feature| feature.to_string()));
     println!("$ cargo {}", arguments.join(" "));
     let output = Command::new("cargo")
