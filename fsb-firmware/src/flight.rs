@@ -1,8 +1,15 @@
 //! The flight: ten seconds of the course, with a vehicle that is heavier than configured.
 
 use cortex_m_rt::entry;
+#[cfg(feature = "defmt")]
+use defmt_semihosting as _;
 use fsb_firmware::{Allocation, ControlLoop, LoopConfig, attitude_from_angles};
-use semihosting::{println, process};
+// The standard output is defmt's then: `defmt-print -e ELF` reads it.
+#[cfg(feature = "defmt")]
+use semihosting::eprintln as println;
+#[cfg(not(feature = "defmt"))]
+use semihosting::println;
+use semihosting::process;
 
 use crate::board::{Marker, Motor, Tick, duties};
 use crate::course;

@@ -33,6 +33,18 @@ pub fn output(program: &Path, argument: Option<&str>) -> Result<Vec<String>> {
     whole(&text)
 }
 
+/// The bytes of the standard output, which need no `end`. The program must exit with status 0 in time.
+pub fn bytes(program: &Path) -> Result<Vec<u8>> {
+    let mut child = start(program, None, &[], Stdio::null())?;
+    let mut stdout = child.stdout.take().context("no standard output")?;
+    let reader = thread::spawn(move || {
+        let mut bytes = Vec::new();
+        stdout.read_to_end(&mut bytes).map(|_| bytes)
+    });
+    finish(&mut child)?;
+    reader.join().ok().context("the reader died")?.context("cannot read the output")
+}
+
 /// Hands every line of the emulator's log to `line`, for a program that runs one instruction a time.
 pub fn traced(program: &Path, argument: &str, filter: &str, mut line: impl FnMut(&str) -> Result<()>) -> Result<()> {
     let options = ["-singlestep", "-d", "exec,nochain", "-dfilter", filter];
