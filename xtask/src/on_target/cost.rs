@@ -66,7 +66,7 @@ fn parse(lines: &[String]) -> Result<Measured> {
 fn cycles(program: &Path) -> Result<Measured> {
     let listing = Listing::of(program)?;
     let mut measured = Vec::new();
-    println!("cycles by the table (ARM DDI 0439): the fewest it allows, and the most, which have the budget");
+    println!("cycles by the table (ARM 100166): the fewest it allows, and the most, which have the budget");
     for Trace { argument, name, roots, others } in TRACES {
         let ticks = trace::ticks(program, &listing, argument, roots, others)?;
         let mean = |each: &dyn Fn(&trace::Tick) -> u32| {

@@ -1,4 +1,4 @@
-//! Cycles of an instruction by the tables of the Cortex-M4 Technical Reference Manual (ARM DDI 0439, 3.3.1 and 7.2.3).
+//! Cycles of an instruction by the tables of the Cortex-M4 Technical Reference Manual (ARM 100166, earlier DDI 0439: 3.3.1 and 7.2.3).
 //!
 //! The tables leave two things open: a load or store of one word takes 2 cycles, 1 where it is pipelined, and a taken branch
 //! refills the pipeline in 1 to 3. Hence two sums: the fewest and the most that the tables allow. No wait states.
@@ -54,7 +54,7 @@ fn base(instruction: &Instruction) -> Cycles {
     match mnemonic {
         "push" | "pop" | "ldmia" | "ldm" | "stmia" | "stm" | "ldmdb" | "stmdb" => exactly(1 + registers(operands)),
         "ldrd" | "strd" => exactly(3),
-        "mla" | "mls" | "msr" | "mrs" => exactly(2),
+        "msr" | "mrs" => exactly(2),
         "udiv" | "sdiv" => between(2, 12),
         "tbb" | "tbh" => exactly(2),
         _ if mnemonic.starts_with("ldr") || mnemonic.starts_with("str") => between(1, 2),
