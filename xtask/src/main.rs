@@ -5,6 +5,7 @@ mod hygiene;
 mod licences;
 mod lints;
 mod metadata;
+mod on_target;
 mod setup;
 mod spdx;
 mod steps;
@@ -50,7 +51,7 @@ fn select(arguments: &[String]) -> Result<Option<Vec<&'static Step>>, String> {
 fn help() -> String {
     let mut text = String::from("Usage: cargo xtask test | STEP...\n\n  test      every step below, in this order\n\n");
     for step in STEPS {
-        text += &format!("  {:<9} {}\n", step.name, step.about);
+        text += &format!("  {:<11} {}\n", step.name, step.about);
     }
     text
 }

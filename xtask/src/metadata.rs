@@ -4,15 +4,25 @@ use anyhow::{Context, Result};
 use serde_json::Value;
 
 use crate::command::output;
+use crate::on_target::programs::OUTSIDE;
 
 /// The workspace's own packages.
 pub fn members() -> Result<Vec<Value>> {
     packages(&["metadata", "--format-version", "1", "--no-deps"])
 }
 
-/// Every package of the dependency graph, for every platform.
+/// Every package of the dependency graph, for every platform, of the workspace and of what is outside of it.
 pub fn everything() -> Result<Vec<Value>> {
-    packages(&["metadata", "--format-version", "1"])
+    let mut all = packages(&["metadata", "--format-version", "1"])?;
+    for package in OUTSIDE {
+        let manifest = package.manifest();
+        for found in packages(&["metadata", "--format-version", "1", "--locked", "--manifest-path", &manifest])? {
+            if all.iter().all(|known| known["id"] != found["id"]) {
+                all.push(found);
+            }
+        }
+    }
+    Ok(all)
 }
 
 fn packages(arguments: &[&str]) -> Result<Vec<Value>> {

@@ -10,7 +10,10 @@ use crate::command::{self, on_path, output, run_with, succeeds};
 pub const TARGETS: &[&str] = &["thumbv7em-none-eabihf", "thumbv7em-none-eabi"];
 
 /// Debian packages the steps use.
-const PACKAGES: &[Package] = &[];
+const PACKAGES: &[Package] = &[
+    Package { name: "qemu-system-arm", present: || on_path("qemu-system-arm") },
+    Package { name: "binutils-arm-none-eabi", present: || on_path("arm-none-eabi-objdump") },
+];
 
 /// A Debian package, and how to see that what it brings is there.
 struct Package {

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
+use crate::on_target::{cost, disassembly, examples, firmware, panics, parity, size};
 use crate::{hygiene, licences, lints, setup, suite, target};
 
 /// One step of the gate.
@@ -24,7 +25,18 @@ pub const STEPS: &[Step] = &[
     Step { name: "hygiene", about: "rules on the text of the repository", run: hygiene::run },
     Step { name: "licences", about: "every dependency under a licence of the allow-list", run: licences::run },
     Step { name: "clippy", about: "lints, all targets and features, warnings denied", run: lints::clippy },
-    Step { name: "target", about: "the core on thumbv7em with every feature combination", run: target::run },
+    Step {
+        name: "target",
+        about: "core and control loop on thumbv7em with every feature combination",
+        run: target::run,
+    },
+    Step { name: "firmware", about: "the control loop flies on the emulator", run: firmware::run },
+    Step { name: "parity", about: "the same bits on host and target", run: parity::run },
+    Step { name: "cost", about: "instructions and cycles of a tick, within budgets.toml", run: cost::run },
+    Step { name: "size", about: "state, code and stack of a tick, within budgets.toml", run: size::run },
+    Step { name: "panic", about: "no panic can be reached, by linking without a panic handler", run: panics::run },
+    Step { name: "disassembly", about: "no allocation, transcendental or soft float in a tick", run: disassembly::run },
+    Step { name: "examples", about: "the RTIC and the Embassy task build for the target", run: examples::run },
     Step { name: "doc", about: "documentation, warnings denied", run: lints::doc },
     Step { name: "suite", about: "cargo test on the whole workspace", run: suite::run },
 ];
@@ -49,11 +61,11 @@ pub fn run(steps: &[&Step]) -> bool {
         }
     }
 
-    println!("\n{:<10} {:<7} {:>8}", "step", "result", "time");
+    println!("\n{:<12} {:<7} {:>8}", "step", "result", "time");
     for (name, time, passed) in &summary {
-        println!("{name:<10} {:<7} {:>8}", if *passed { "ok" } else { "FAILED" }, seconds(*time));
+        println!("{name:<12} {:<7} {:>8}", if *passed { "ok" } else { "FAILED" }, seconds(*time));
     }
-    println!("{:<10} {:<7} {:>8}", "total", "", seconds(start.elapsed()));
+    println!("{:<12} {:<7} {:>8}", "total", "", seconds(start.elapsed()));
     let failed: Vec<_> = summary.iter().filter(|(_, _, passed)| !passed).map(|(name, ..)| *name).collect();
     for name in &failed {
         println!("failed: {name}; alone: cargo xtask {name}");

@@ -1,4 +1,4 @@
-//! The core, built for the microcontroller with every feature combination.
+//! The core and the control loop, built for the microcontroller with every feature combination.
 
 use anyhow::{Context, Result};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use crate::command;
 use crate::{metadata, setup};
 
 /// The packages that must build without an operating system.
-const BARE_METAL: &[&str] = &["fsb-core"];
+const BARE_METAL: &[&str] = &["fsb-core", "fsb-firmware"];
 
 /// Builds each bare-metal package for each target: no feature, each alone, all together.
 pub fn run() -> Result<()> {
@@ -18,7 +18,7 @@ pub fn run() -> Result<()> {
         let features = features(package.with_context(|| format!("no package {name}"))?);
         for target in setup::TARGETS {
             for combination in combinations(&features) {
-                let mut arguments = vec!["build", "--release", "--package", name, "--target", target];
+                let mut arguments = vec!["build", "--release", "--lib", "--package", name, "--target", target];
                 arguments.push("--no-default-features");
                 if !combination.is_empty() {
                     arguments.extend(["--features", &combination]);

@@ -1,0 +1,88 @@
+//! The control loop as an Embassy task: SysTick signals the tick at 1 kHz, another task puts the bytes of the serial port
+//! together. Both run on the executor of thread mode; a vehicle with more to do gives the loop an interrupt executor.
+//!
+//! No HAL is needed for that. With embassy-stm32 the motors are its `SimplePwm` channels, which implement `SetDutyCycle`, and
+//! the tick is `embassy_time::Ticker`.
+#![no_std]
+#![no_main]
+
+mod board;
+mod frame;
+
+use board::{CLOCK, Marker, Motor};
+use core::panic::PanicInfo;
+use cortex_m::peripheral::syst::SystClkSource;
+use cortex_m_rt::exception;
+use embassy_executor::Spawner;
+use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
+use embassy_sync::channel::Channel;
+use embassy_sync::signal::Signal;
+use frame::Decoder;
+use fsb_core::control::Reference;
+use fsb_firmware::{Allocation, ControlLoop, LoopConfig, Sample, TiltedHexarotor, attitude_from_angles};
+
+/// Control rate [Hz].
+const RATE: u32 = 1000;
+
+static TICK: Signal<CriticalSectionRawMutex, ()> = Signal::new();
+static SAMPLE: Signal<CriticalSectionRawMutex, Sample> = Signal::new();
+/// Bytes of the receiver.
+static BYTES: Channel<CriticalSectionRawMutex, u8, 64> = Channel::new();
+
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    cortex_m::asm::udf()
+}
+
+#[exception]
+fn SysTick() {
+    TICK.signal(());
+    // At 9600 baud no more than one byte comes in a tick.
+    if let Some(byte) = board::received() {
+        // Full: the byte is lost, and the frame with it.
+        let _ = BYTES.try_send(byte);
+    }
+}
+
+#[embassy_executor::main]
+async fn main(spawner: Spawner) {
+    let geometry = TiltedHexarotor { arm: 0.25, tilt: 0.35, drag_ratio: 0.02 };
+    let allocation = Allocation::new(&geometry.matrix(), 6.0).expect("a tilted hexarotor");
+    let config = LoopConfig::new(1.0 / f64::from(RATE), 1.5, [0.015, 0.015, 0.03], allocation);
+    let (motors, marker) = board::set_up();
+    board::set_up_port(9600);
+    let flight = ControlLoop::new(&config, motors, marker).expect("a good configuration");
+    spawner.spawn(control(flight).expect("the first of its kind"));
+    spawner.spawn(receive().expect("the first of its kind"));
+
+    let mut timer = cortex_m::Peripherals::take().expect("the first to take them").SYST;
+    timer.set_clock_source(SystClkSource::Core);
+    timer.set_reload(CLOCK / RATE - 1);
+    timer.clear_current();
+    timer.enable_interrupt();
+    timer.enable_counter();
+}
+
+/// The control period.
+#[embassy_executor::task]
+async fn control(mut flight: ControlLoop<Motor, Marker>) {
+    loop {
+        TICK.wait().await;
+        let Ok(_) = flight.tick(SAMPLE.try_take().as_ref(), &[Reference::default(); 6]);
+    }
+}
+
+/// Positions and attitude.
+#[embassy_executor::task]
+async fn receive() {
+    let mut decoder = Decoder::default();
+    loop {
+        if let Some([x, y, z, roll, pitch, yaw]) = decoder.push(BYTES.receive().await) {
+            SAMPLE.signal(Sample {
+                position: [Some(x), Some(y), Some(z)],
+                angles: [Some(roll), Some(pitch), Some(yaw)],
+                attitude: attitude_from_angles([roll, pitch, yaw]),
+            });
+        }
+    }
+}

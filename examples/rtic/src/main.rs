@@ -1,0 +1,107 @@
+//! The control loop as an RTIC 2 task: TIM2 ticks at 1 kHz and preempts the serial port, which brings the positions, and the
+//! telemetry. The core clock is the 16 MHz the chip starts with; a vehicle sets up its PLL first.
+#![no_std]
+#![no_main]
+
+mod board;
+mod frame;
+
+use core::panic::PanicInfo;
+
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    cortex_m::asm::udf()
+}
+
+#[rtic::app(device = stm32f4::stm32f405, dispatchers = [EXTI0])]
+mod app {
+    use crate::board::{self, CLOCK, Marker, Motor};
+    use crate::frame::Decoder;
+    use fsb_core::control::Reference;
+    use fsb_core::readout::Parameter;
+    use fsb_firmware::{Allocation, ControlLoop, LoopConfig, Sample, TiltedHexarotor, attitude_from_angles};
+    use stm32f4::stm32f405::TIM2;
+
+    /// Control rate [Hz].
+    const RATE: u32 = 1000;
+
+    #[shared]
+    struct Shared {
+        /// The newest sample, taken by the tick.
+        sample: Option<Sample>,
+        /// 1/m, 1/Ix, 1/Iy, 1/Iz for the telemetry.
+        parameters: [Option<Parameter>; 4],
+    }
+
+    #[local]
+    struct Local {
+        flight: ControlLoop<Motor, Marker>,
+        timer: TIM2,
+        decoder: Decoder,
+        ticks: u32,
+    }
+
+    #[init]
+    fn init(context: init::Context) -> (Shared, Local) {
+        let device = context.device;
+        device.RCC.apb1enr().modify(|_, w| w.tim2en().enabled());
+        // SAFETY: the register has 32 bits.
+        device.TIM2.arr().write(|w| unsafe { w.bits(CLOCK / RATE - 1) });
+        device.TIM2.dier().write(|w| w.uie().enabled());
+        device.TIM2.cr1().write(|w| w.cen().enabled());
+        let (motors, marker) = board::set_up();
+        board::set_up_port(115_200);
+
+        let geometry = TiltedHexarotor { arm: 0.25, tilt: 0.35, drag_ratio: 0.02 };
+        let allocation = Allocation::new(&geometry.matrix(), 6.0).expect("a tilted hexarotor");
+        let config = LoopConfig::new(1.0 / f64::from(RATE), 1.5, [0.015, 0.015, 0.03], allocation);
+        let flight = ControlLoop::new(&config, motors, marker).expect("a good configuration");
+        (
+            Shared { sample: None, parameters: [None; 4] },
+            Local { flight, timer: device.TIM2, decoder: Decoder::default(), ticks: 0 },
+        )
+    }
+
+    /// The control period. Nothing that it waits for can take long: the tasks below only copy under their lock.
+    #[task(binds = TIM2, priority = 3, local = [flight, timer, ticks], shared = [sample, parameters])]
+    fn tick(mut context: tick::Context) {
+        context.local.timer.sr().modify(|_, w| w.uif().clear());
+        let sample = context.shared.sample.lock(Option::take);
+        let wanted = [Reference::default(); 6];
+        let Ok(_) = context.local.flight.tick(sample.as_ref(), &wanted);
+        *context.local.ticks += 1;
+        if context.local.ticks.is_multiple_of(RATE / 10) {
+            let now = context.local.flight.parameters();
+            context.shared.parameters.lock(|parameters| *parameters = now);
+            // Refused where the last one is still being sent.
+            let _ = telemetry::spawn();
+        }
+    }
+
+    #[task(binds = USART1, priority = 2, local = [decoder], shared = [sample])]
+    fn receive(mut context: receive::Context) {
+        let Some(byte) = board::received() else { return };
+        if let Some([x, y, z, roll, pitch, yaw]) = context.local.decoder.push(byte) {
+            let sample = Sample {
+                position: [Some(x), Some(y), Some(z)],
+                angles: [Some(roll), Some(pitch), Some(yaw)],
+                attitude: attitude_from_angles([roll, pitch, yaw]),
+            };
+            context.shared.sample.lock(|newest| *newest = Some(sample));
+        }
+    }
+
+    /// Ten times a second, when nothing else is to do: the mass over ITM port 0.
+    #[task(priority = 1, shared = [parameters])]
+    async fn telemetry(mut context: telemetry::Context) {
+        let [mass, ..] = context.shared.parameters.lock(|parameters| *parameters);
+        if let Some(known) = mass {
+            // SAFETY: the only user of the ITM.
+            let port = unsafe { &mut (*cortex_m::peripheral::ITM::PTR).stim[0] };
+            for word in [known.value.to_bits(), known.variance.to_bits()] {
+                while !port.is_fifo_ready() {}
+                port.write_u32(word);
+            }
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Every public entry point of estimator, controller and control loop, with inputs the compiler knows nothing about, linked
+//! with a panic handler that is an undefined symbol. Never run: that it links is the proof.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use fsb_core::control::{Reference, TrackingConfig, TrackingController, to_body};
+use fsb_core::estimator::AxisState;
+use fsb_core::readout::{Memory, ParameterRule, Readout};
+use fsb_core::{Estimator, EstimatorConfig, EstimatorDesign, Tuning};
+use fsb_firmware::attitude_from_quaternion;
+use panic_never as _;
+use target_tests::whole_loop::{flight, loop_tick, sample};
+
+#[entry]
+fn main() -> ! {
+    loop {
+        estimator::<1, 1>();
+        estimator::<3, 1>();
+        estimator::<3, 3>();
+        estimator::<6, 6>();
+        controller();
+        whole_loop();
+        #[cfg(feature = "demonstrate")]
+        index_out_of_bounds();
+    }
+}
+
+/// The demonstration: an index the compiler cannot know.
+#[cfg(feature = "demonstrate")]
+fn index_out_of_bounds() {
+    let values = black_box([1.0_f32, 2.0, 3.0]);
+    let index: usize = black_box(1);
+    black_box(values[index]);
+}
+
+fn estimator<const N: usize, const P: usize>() {
+    let Ok(design) = EstimatorDesign::new(&config::<N, P>()) else { return };
+    let mut estimator = black_box(Estimator::with_design(black_box(design)));
+    loop {
+        match black_box(0_u32) {
+            0 => drop(black_box(estimator.measure(&black_box([Some(0.0); N])))),
+            1 => drop(black_box(estimator.measure_raw(&black_box([0.0; N])))),
+            2 => estimator.apply(&black_box([0.0; N])),
+            3 => estimator.apply_ramp(&black_box([0.0; N]), &black_box([0.0; N])),
+            4 => estimator.reset(),
+            5 => estimator.reset_identifier(),
+            6 => drop(black_box(estimator.states())),
+            7 => drop(black_box(estimator.state_status())),
+            8 => drop(black_box(estimator.state_sd())),
+            9 => drop(black_box(estimator.parameter_status())),
+            10 => drop(black_box(estimator.diagnostics())),
+            11 => drop(black_box(estimator.counters())),
+            12 => {
+                for parameter in estimator.parameters().into_iter().flatten() {
+                    black_box((parameter.sd(), parameter.inverse_with_sd()));
+                }
+            }
+            13 => {
+                if let Ok(new) = Estimator::new(&config::<N, P>()) {
+                    estimator = black_box(new);
+                }
+            }
+            _ => return,
+        }
+    }
+}
+
+fn config<const N: usize, const P: usize>() -> EstimatorConfig<N, P> {
+    let mut config = EstimatorConfig::<N, P>::new(black_box(1e-3));
+    config.substeps = black_box(1);
+    config.block = black_box(1);
+    config.turn = black_box(0);
+    config.identifier = Tuning { lambda: black_box(2.0), q: black_box(1.0) };
+    config.observer = black_box(Tuning::from_lambda(10.0));
+    config.noise_sd = black_box(None);
+    config.readout = if black_box(true) { Readout::LeastSquares } else { Readout::AbsoluteRatio };
+    config.memory = if black_box(true) { Memory::Infinite } else { Memory::Fading { tau: black_box(1.0) } };
+    config.drift = black_box([0.0; N]);
+    config.nominal = black_box([None; P]);
+    config.rule = black_box([ParameterRule::default(); P]);
+    config.parameter_settle = black_box(0.0);
+    config.state_settle = black_box(0.0);
+    config.position_limit = black_box(1e5);
+    config.input_limit = black_box(1e5);
+    config
+}
+
+fn controller() {
+    let config = TrackingConfig {
+        kp: black_box(1.0),
+        kd: black_box(1.0),
+        drift: black_box(0.0),
+        parameter_min: black_box(0.1),
+        parameter_max: black_box(10.0),
+    };
+    let Ok(controller) = TrackingController::new(&config) else { return };
+    let state = black_box(AxisState { position: 0.0, velocity: 0.0 });
+    let _ = black_box(controller.input(&black_box(Reference::default()), &state, black_box(1.0)));
+    black_box(to_body(&attitude_from_quaternion(black_box([1.0, 0.0, 0.0, 0.0])), &black_box([0.0; 3])));
+}
+
+fn whole_loop() {
+    let Some(flight) = flight() else { return };
+    let mut flight = black_box(flight);
+    let tick = target_tests::scenario::Tick { positions: black_box(None), inputs: black_box([0.0; 6]) };
+    let _ = black_box(loop_tick(&mut flight, &black_box(sample(&tick)), &black_box([Reference::default(); 6])));
+    black_box((flight.parameters(), flight.parameter_status(), flight.state_status(), flight.counters()));
+    black_box(flight.events().take());
+    flight.reset();
+}

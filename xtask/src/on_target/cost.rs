@@ -1,0 +1,115 @@
+//! What a tick costs: instructions, counted by the emulator over a minute; cycles, by the published table over the traced
+//! first second and a half; and the instructions of the crates that others would use.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+
+use super::budgets::{self, Measured};
+use super::listing::Listing;
+use super::programs::{PEERS, TARGET_TESTS};
+use super::{emulator, trace};
+
+/// A traced run.
+struct Trace {
+    /// Of the program.
+    argument: &'static str,
+    /// What is measured.
+    name: &'static str,
+    /// What counts; the first begins a tick.
+    roots: &'static [&'static str],
+    /// What does not.
+    others: &'static [&'static str],
+}
+
+const SIX: &[&str] = &["six_measure", "six_apply"];
+const READ: &[&str] = &["six_states", "six_parameters"];
+const TRACES: &[Trace] = &[
+    Trace { argument: "trace-blocks", name: "six_axes_blocks_of_10", roots: SIX, others: READ },
+    Trace { argument: "trace-singles", name: "six_axes_block_1", roots: SIX, others: READ },
+    Trace {
+        argument: "trace-between",
+        name: "control_tick_without_measurement",
+        roots: &["six_states", "six_apply"],
+        others: &["six_measure", "six_parameters"],
+    },
+    Trace { argument: "trace-one", name: "one_axis_block_1", roots: &["one_measure", "one_apply"], others: &[] },
+];
+
+/// Counts, sums, compares with `budgets.toml`.
+pub fn run() -> Result<()> {
+    let program = TARGET_TESTS.build("tick")?;
+    let counted = parse(&emulator::output(&program, Some("count"))?)?;
+    println!(
+        "instructions a tick over a minute; a tick is measure and apply, states and parameters are read beside it"
+    );
+    let instructions = budgets::check("cost", &counted);
+    let cycles = budgets::check("cycles", &cycles(&program)?);
+    peers()?;
+    instructions.and(cycles)
+}
+
+/// `name mean 12.34 worst 20 tick 7`
+fn parse(lines: &[String]) -> Result<Measured> {
+    let mut measured = Vec::new();
+    for line in lines {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let [name, "mean", mean, "worst", worst, "tick", tick] = words[..] else { bail!("not understood: {line}") };
+        let number = |text: &str| text.parse::<f64>().with_context(|| format!("no number in: {line}"));
+        println!("  {name}: worst at tick {tick}");
+        measured.push((format!("{name}_mean"), number(mean)?));
+        measured.push((format!("{name}_worst"), number(worst)?));
+    }
+    Ok(measured)
+}
+
+fn cycles(program: &Path) -> Result<Measured> {
+    let listing = Listing::of(program)?;
+    let mut measured = Vec::new();
+    println!("cycles by the table (ARM 100166): the fewest it allows, and the most, which have the budget");
+    for Trace { argument, name, roots, others } in TRACES {
+        let ticks = trace::ticks(program, &listing, argument, roots, others)?;
+        let mean = |each: &dyn Fn(&trace::Tick) -> u32| {
+            let sum: u64 = ticks.iter().map(|tick| u64::from(each(tick))).sum();
+            (sum as f64 / ticks.len() as f64 * 10.0).round() / 10.0
+        };
+        let worst = ticks.iter().max_by_key(|tick| tick.cycles.most).context("no ticks")?;
+        println!(
+            "  {name}: {} ticks, mean {} instructions, {} to {} cycles; worst {} instructions, {} to {} cycles",
+            ticks.len(),
+            mean(&|tick| tick.instructions),
+            mean(&|tick| tick.cycles.fewest),
+            mean(&|tick| tick.cycles.most),
+            worst.instructions,
+            worst.cycles.fewest,
+            worst.cycles.most,
+        );
+        measured.push((format!("{name}_mean"), mean(&|tick| tick.cycles.most)));
+        measured.push((format!("{name}_worst"), f64::from(worst.cycles.most)));
+    }
+    Ok(measured)
+}
+
+/// For comparison only: no budget.
+fn peers() -> Result<()> {
+    println!(
+        "six axes of a two-state Kalman filter and a scalar recursive least squares from crates.io, instructions:"
+    );
+    for line in emulator::output(&PEERS.build("peers")?, None)? {
+        println!("  {line}");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_the_program() {
+        let measured = parse(&["a mean 12.50 worst 20 tick 7".into()]).unwrap();
+        assert_eq!(measured, [("a_mean".to_string(), 12.5), ("a_worst".to_string(), 20.0)]);
+        assert!(parse(&["a mean x worst 20 tick 7".into()]).is_err());
+        assert!(parse(&["a panicked".into()]).is_err());
+    }
+}
