@@ -39,11 +39,11 @@ pub struct fsb_axis_config_t {
     pub period: f64,
     /// Control periods from one measurement to the next, at least 1.
     pub substeps: u32,
-    /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper, and no less
-    /// accurate.
+    /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
+    /// and no less accurate.
     pub block: u32,
-    /// Measurements by which the identifier starts late, below `block`: several estimators on one processor then do not
-    /// complete their blocks in the same tick.
+    /// Measurements by which the identifier starts late, below `block`: several estimators on one processor then
+    /// do not complete their blocks in the same tick.
     pub turn: u32,
     /// FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
     pub readout: u32,
@@ -63,7 +63,8 @@ pub struct fsb_axis_config_t {
     pub position_limit: f64,
     /// An input of larger magnitude is rejected [N or N m]. Up to 1e6.
     pub input_limit: f64,
-    /// Known constant drift [m/s^2 or rad/s^2]: -9.81 on an axis that points up, +9.81 on one that points down (NED). Up to 1e6.
+    /// Known constant drift [m/s^2 or rad/s^2]: -9.81 on an axis that points up, +9.81 on one that points down
+    /// (NED). Up to 1e6.
     pub drift: f64,
     /// k that the observer uses until the identified one is valid, else NaN: no state is valid before. 1e-15..1e15.
     pub nominal: f64,
@@ -71,18 +72,21 @@ pub struct fsb_axis_config_t {
     pub rule: fsb_rule_t,
 }
 
-/// The configuration for a control period [s], which is not checked here: every tick measured, no blocks, lambda 2 and q 1
-/// for the identifier, 10 and 5 for the observer, least squares that never forget, no drift, no nominal k.
+/// The configuration for a control period [s], which is not checked here: every tick measured, no blocks, lambda
+/// 2 and q 1 for the identifier, 10 and 5 for the observer, least squares that never forget, no drift, no
+/// nominal k.
 #[unsafe(no_mangle)]
 pub extern "C" fn fsb_axis_config_default(period: f64) -> fsb_axis_config_t {
     fsb_axis_config_t::new(period)
 }
 
-/// Starts an estimator in the caller's storage. Nothing else may be called with it before; calling it again starts anew.
+/// Starts an estimator in the caller's storage. Nothing else may be called with it before; calling it again
+/// starts anew.
 ///
-/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault as it is
-/// written in the configuration ("observer.lambda"; static storage), and the object is not initialised. Without a fault
-/// `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in double precision.
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault
+/// as it is written in the configuration ("observer.lambda"; static storage), and the object is not initialised.
+/// Without a fault `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in
+/// double precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_axis_init(
     estimator: *mut fsb_axis_t,
@@ -106,8 +110,8 @@ pub unsafe extern "C" fn fsb_axis_reset_identifier(estimator: *mut fsb_axis_t) -
     any::reset_identifier(estimator)
 }
 
-/// Takes the position [m or rad] at the present instant; NaN where the measurement is missing. Comes before apply, every `substeps` ticks. An instant
-/// at which it is not called counts as missed on its own.
+/// Takes the position [m or rad] at the present instant; NaN where the measurement is missing. Comes before
+/// apply, every `substeps` ticks. An instant at which it is not called counts as missed on its own.
 ///
 /// What is infinite or beyond the limit is rejected, counted, and treated as missing. Errors: FSB_NULL_POINTER,
 /// FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_OUT_OF_STEP; nothing has changed then. For the tick: bounded work.
@@ -116,11 +120,12 @@ pub unsafe extern "C" fn fsb_axis_measure(estimator: *mut fsb_axis_t, position: 
     any::measure(estimator, position)
 }
 
-/// Takes the input [N or N m] held over the control period that begins now, once a tick. Give what the actuators really do
-/// (saturated, and with their lag where it is known).
+/// Takes the input [N or N m] held over the control period that begins now, once a tick. Give what the actuators
+/// really do (saturated, and with their lag where it is known).
 ///
-/// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before the first
-/// measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded work.
+/// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before
+/// the first measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded
+/// work.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_axis_apply(estimator: *mut fsb_axis_t, input: *const f32) -> fsb_status_t {
     any::apply(estimator, input)
@@ -139,8 +144,8 @@ pub unsafe extern "C" fn fsb_axis_apply_ramp(
 /// Hands out the state at the present control instant, predicted from the last measurement with what was applied
 /// since. What is not valid is NaN and its `status` says why.
 ///
-/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED; `state` holds NaN then, where it can be written. For the
-/// tick.
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED; `state` holds NaN then, where it can be
+/// written. For the tick.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_axis_state(estimator: *const fsb_axis_t, state: *mut fsb_state_t) -> fsb_status_t {
     any::states(estimator, state)

@@ -15,8 +15,8 @@ pub const FSB_READOUT_LEAST_SQUARES: u32 = 0;
 /// k = sum|z2| / sum|z0|, the paper's (44): loses the sign, reads too high where the excitation is weak.
 pub const FSB_READOUT_ABSOLUTE_RATIO: u32 = 1;
 
-/// The paper's lambda and q [1/s]. Each, times the period it runs at, must be within 1e-6..1; q = lambda/2 is the paper's
-/// choice.
+/// The paper's lambda and q [1/s]. Each, times the period it runs at, must be within 1e-6..1; q = lambda/2 is
+/// the paper's choice.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_tuning_t {

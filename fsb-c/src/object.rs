@@ -31,7 +31,8 @@ const fn mark<O: Object>() -> [u32; 2] {
     [0x4653_4200 | O::KIND, FSB_VERSION << 12 ^ size_of::<O::Value>() as u32]
 }
 
-/// Fails to compile where the value does not fit into the storage, or where the storage is more than twice the value's size.
+/// Fails to compile where the value does not fit into the storage, or where the storage is more than twice the
+/// value's size.
 pub(crate) const fn check_storage<O: Object>(size: usize, alignment: usize) {
     assert!(size_of::<O>() == size && align_of::<O>() == alignment, "the constants of fsb.h are those of the storage");
     assert!(size_of::<Marked<O::Value>>() <= size, "the storage is too small");
@@ -122,10 +123,10 @@ pub(crate) unsafe fn take<T: Copy, const N: usize>(from: *const T) -> Result<[T;
     Ok(unsafe { from.cast::<[T; N]>().read() })
 }
 
-/// Copies N values to the caller: those of `make`, or where it fails N times `invalid`, so that nothing old is left there.
+/// Copies N values to the caller: those of `make`, or where it fails N times `invalid`, so that nothing old is
+/// left there.
 ///
-/// # Safety
-/// The contract of this module, for N values of T.
+/// # Safety The contract of this module, for N values of T.
 pub(crate) unsafe fn give<T: Copy, const N: usize>(
     to: *mut T,
     invalid: T,

@@ -17,7 +17,8 @@ pub const FSB_ROTATION_SIZE: usize = 1280;
 /// Alignment of fsb_rotation_t.
 pub const FSB_ROTATION_ALIGNMENT: usize = 8;
 
-/// Three axes with a k each: angles (roll, pitch, yaw) under the torque (x, y, z), k = 1/inertia. Storage of the caller; what is in it is the library's.
+/// Three axes with a k each: angles (roll, pitch, yaw) under the torque (x, y, z), k = 1/inertia. Storage of the
+/// caller; what is in it is the library's.
 #[repr(C)]
 pub struct fsb_rotation_t {
     /// Not to be touched. Copying the whole object is fine, and the copy goes on from there.
@@ -39,11 +40,11 @@ pub struct fsb_rotation_config_t {
     pub period: f64,
     /// Control periods from one measurement to the next, at least 1.
     pub substeps: u32,
-    /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper, and no less
-    /// accurate.
+    /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
+    /// and no less accurate.
     pub block: u32,
-    /// Measurements by which the identifier starts late, below `block`: several estimators on one processor then do not
-    /// complete their blocks in the same tick.
+    /// Measurements by which the identifier starts late, below `block`: several estimators on one processor then
+    /// do not complete their blocks in the same tick.
     pub turn: u32,
     /// FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
     pub readout: u32,
@@ -65,24 +66,28 @@ pub struct fsb_rotation_config_t {
     pub input_limit: f64,
     /// Known constant drift of each axis [rad/s^2]. Up to 1e6.
     pub drift: [f64; 3],
-    /// k of each axis that the observer uses until the identified one is valid, else NaN: no state is valid before. 1e-15..1e15.
+    /// k of each axis that the observer uses until the identified one is valid, else NaN: no state is valid
+    /// before. 1e-15..1e15.
     pub nominal: [f64; 3],
     /// When k of each axis counts as valid.
     pub rule: [fsb_rule_t; 3],
 }
 
-/// The configuration for a control period [s], which is not checked here: every tick measured, no blocks, lambda 2 and q 1
-/// for the identifier, 10 and 5 for the observer, least squares that never forget, no drift, no nominal k.
+/// The configuration for a control period [s], which is not checked here: every tick measured, no blocks, lambda
+/// 2 and q 1 for the identifier, 10 and 5 for the observer, least squares that never forget, no drift, no
+/// nominal k.
 #[unsafe(no_mangle)]
 pub extern "C" fn fsb_rotation_config_default(period: f64) -> fsb_rotation_config_t {
     fsb_rotation_config_t::new(period)
 }
 
-/// Starts an estimator in the caller's storage. Nothing else may be called with it before; calling it again starts anew.
+/// Starts an estimator in the caller's storage. Nothing else may be called with it before; calling it again
+/// starts anew.
 ///
-/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault as it is
-/// written in the configuration ("observer.lambda"; static storage), and the object is not initialised. Without a fault
-/// `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in double precision.
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault
+/// as it is written in the configuration ("observer.lambda"; static storage), and the object is not initialised.
+/// Without a fault `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in
+/// double precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_rotation_init(
     estimator: *mut fsb_rotation_t,
@@ -106,8 +111,8 @@ pub unsafe extern "C" fn fsb_rotation_reset_identifier(estimator: *mut fsb_rotat
     any::reset_identifier(estimator)
 }
 
-/// Takes the angles [rad] at the present instant; NaN where a measurement is missing. Comes before apply, every `substeps` ticks. An instant
-/// at which it is not called counts as missed on its own.
+/// Takes the angles [rad] at the present instant; NaN where a measurement is missing. Comes before apply, every
+/// `substeps` ticks. An instant at which it is not called counts as missed on its own.
 ///
 /// What is infinite or beyond the limit is rejected, counted, and treated as missing. Errors: FSB_NULL_POINTER,
 /// FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_OUT_OF_STEP; nothing has changed then. For the tick: bounded work.
@@ -117,11 +122,12 @@ pub unsafe extern "C" fn fsb_rotation_measure(estimator: *mut fsb_rotation_t, an
     any::measure(estimator, angle)
 }
 
-/// Takes the torques [N m] held over the control period that begins now, once a tick. Give what the actuators really do
-/// (saturated, and with their lag where it is known).
+/// Takes the torques [N m] held over the control period that begins now, once a tick. Give what the actuators
+/// really do (saturated, and with their lag where it is known).
 ///
-/// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before the first
-/// measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded work.
+/// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before
+/// the first measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded
+/// work.
 /// cbindgen:ptrs-as-arrays=[[input;3]]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_rotation_apply(estimator: *mut fsb_rotation_t, input: *const f32) -> fsb_status_t {
@@ -139,11 +145,11 @@ pub unsafe extern "C" fn fsb_rotation_apply_ramp(
     any::apply_ramp(estimator, from, to)
 }
 
-/// Hands out the three states at the present control instant, predicted from the last measurement with what was applied
-/// since. What is not valid is NaN and its `status` says why.
+/// Hands out the three states at the present control instant, predicted from the last measurement with what was
+/// applied since. What is not valid is NaN and its `status` says why.
 ///
-/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED; `state` holds NaN then, where it can be written. For the
-/// tick.
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED; `state` holds NaN then, where it can be
+/// written. For the tick.
 /// cbindgen:ptrs-as-arrays=[[state;3]]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_rotation_states(
@@ -164,8 +170,9 @@ pub unsafe extern "C" fn fsb_rotation_state_sd(
     any::state_sd(estimator, sd)
 }
 
-/// Hands out the three parameters 1/inertia. What is not valid is NaN and its `status` says why. Errors as fsb_rotation_states. For
-/// the tick; for mass or inertia in SI units and standard deviations see fsb_parameter_report.
+/// Hands out the three parameters 1/inertia. What is not valid is NaN and its `status` says why. Errors as
+/// fsb_rotation_states. For the tick; for mass or inertia in SI units and standard deviations see
+/// fsb_parameter_report.
 /// cbindgen:ptrs-as-arrays=[[parameter;3]]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_rotation_parameters(

@@ -8,40 +8,40 @@ use fsb_core::control::ControlError;
 pub type fsb_status_t = i32;
 
 /// Done.
-pub const FSB_OK: fsb_status_t = 0;
+pub const FSB_OK: i32 = 0;
 /// A pointer that must not be NULL is NULL.
-pub const FSB_NULL_POINTER: fsb_status_t = 1;
+pub const FSB_NULL_POINTER: i32 = 1;
 /// A pointer is not aligned for its type.
-pub const FSB_MISALIGNED: fsb_status_t = 2;
-/// The object was not initialised, its initialisation failed, it was initialised as something else or by another version of
-/// the library, or its storage was overwritten.
-pub const FSB_NOT_INITIALISED: fsb_status_t = 3;
+pub const FSB_MISALIGNED: i32 = 2;
+/// The object was not initialised, its initialisation failed, it was initialised as something else or by another
+/// version of the library, or its storage was overwritten.
+pub const FSB_NOT_INITIALISED: i32 = 3;
 /// A measurement was given before as many inputs as `substeps` were applied since the last one. Nothing has changed.
-pub const FSB_OUT_OF_STEP: fsb_status_t = 4;
+pub const FSB_OUT_OF_STEP: i32 = 4;
 /// The parameter is outside the range by which the controller may divide, or NaN.
-pub const FSB_PARAMETER_OUT_OF_RANGE: fsb_status_t = 5;
+pub const FSB_PARAMETER_OUT_OF_RANGE: i32 = 5;
 /// The reference, the state or the resulting input is not finite.
-pub const FSB_NOT_FINITE: fsb_status_t = 6;
+pub const FSB_NOT_FINITE: i32 = 6;
 /// The value asked for is not valid at present.
-pub const FSB_NOT_VALID: fsb_status_t = 7;
+pub const FSB_NOT_VALID: i32 = 7;
 /// Configuration: NaN or infinite.
-pub const FSB_CONFIG_NOT_FINITE: fsb_status_t = 16;
+pub const FSB_CONFIG_NOT_FINITE: i32 = 16;
 /// Configuration: zero or negative where a positive value is needed.
-pub const FSB_CONFIG_NOT_POSITIVE: fsb_status_t = 17;
+pub const FSB_CONFIG_NOT_POSITIVE: i32 = 17;
 /// Configuration: negative where zero or more is needed.
-pub const FSB_CONFIG_NEGATIVE: fsb_status_t = 18;
+pub const FSB_CONFIG_NEGATIVE: i32 = 18;
 /// Configuration: outside the documented range.
-pub const FSB_CONFIG_OUT_OF_RANGE: fsb_status_t = 19;
+pub const FSB_CONFIG_OUT_OF_RANGE: i32 = 19;
 /// Configuration: a rate [1/s] times the period it runs at exceeds 1. Lower the rate or sample faster.
-pub const FSB_CONFIG_TOO_FAST: fsb_status_t = 20;
+pub const FSB_CONFIG_TOO_FAST: i32 = 20;
 /// Configuration: a rate [1/s] times the period it runs at is below 1e-6.
-pub const FSB_CONFIG_TOO_SLOW: fsb_status_t = 21;
+pub const FSB_CONFIG_TOO_SLOW: i32 = 21;
 /// Configuration: the lower limit of a pair is not below the upper one.
-pub const FSB_CONFIG_INVERTED_RANGE: fsb_status_t = 22;
+pub const FSB_CONFIG_INVERTED_RANGE: i32 = 22;
 /// Configuration: a count that must be at least one is zero.
-pub const FSB_CONFIG_ZERO: fsb_status_t = 23;
+pub const FSB_CONFIG_ZERO: i32 = 23;
 /// Configuration: refused for another reason.
-pub const FSB_CONFIG_REFUSED: fsb_status_t = 31;
+pub const FSB_CONFIG_REFUSED: i32 = 31;
 
 /// The code of a refused configuration.
 pub(crate) fn of_config(error: ConfigError) -> fsb_status_t {

@@ -59,7 +59,8 @@ pub struct fsb_reference_t {
     pub acceleration: f32,
 }
 
-/// Gains as given, no drift, any k from 1e-6 to 1e9. With the true k a position error e then obeys e'' + kd e' + kp e = 0.
+/// Gains as given, no drift, any k from 1e-6 to 1e9. With the true k a position error e then obeys e'' + kd e' +
+/// kp e = 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn fsb_tracking_config_default(kp: f64, kd: f64) -> fsb_tracking_config_t {
     fsb_tracking_config_t { kp, kd, drift: 0.0, k_min: 1e-6, k_max: 1e9 }
@@ -67,8 +68,9 @@ pub extern "C" fn fsb_tracking_config_default(kp: f64, kd: f64) -> fsb_tracking_
 
 /// Starts a controller in the caller's storage.
 ///
-/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault (static
-/// storage), and the object is not initialised. Without a fault `*parameter` becomes NULL; `parameter` itself may be NULL.
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault
+/// (static storage), and the object is not initialised. Without a fault `*parameter` becomes NULL; `parameter`
+/// itself may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_tracking_init(
     controller: *mut fsb_tracking_t,
@@ -88,13 +90,13 @@ pub unsafe extern "C" fn fsb_tracking_init(
     object::code(outcome)
 }
 
-/// Hands out the input [N or N m] that makes the axis follow `reference` from `state`:
-/// (acceleration - drift - kd (velocity error) - kp (position error)) / k. `k` is the identified one where it is valid, else
-/// the nominal one. `state` may come from another estimator: only its position and velocity are read.
+/// Hands out the input [N or N m] that makes the axis follow `reference` from `state`: (acceleration - drift -
+/// kd (velocity error) - kp (position error)) / k. `k` is the identified one where it is valid, else the nominal
+/// one. `state` may come from another estimator: only its position and velocity are read.
 ///
-/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_PARAMETER_OUT_OF_RANGE, FSB_NOT_FINITE (a state that
-/// is not valid is NaN); `input` becomes NaN then, where it can be written. What to do instead (hold, descend, hand over)
-/// is the caller's decision. For the tick.
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_PARAMETER_OUT_OF_RANGE, FSB_NOT_FINITE (a
+/// state that is not valid is NaN); `input` becomes NaN then, where it can be written. What to do instead (hold,
+/// descend, hand over) is the caller's decision. For the tick.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_tracking_input(
     controller: *const fsb_tracking_t,
@@ -113,8 +115,8 @@ pub unsafe extern "C" fn fsb_tracking_input(
     })
 }
 
-/// Turns a force from the world frame into the body frame, F = R^T f. `attitude` is the rotation from body to world by rows:
-/// attitude[3 i + j] is the component of body axis j along world axis i. `body` may be `world`.
+/// Turns a force from the world frame into the body frame, F = R^T f. `attitude` is the rotation from body to
+/// world by rows: attitude[3 i + j] is the component of body axis j along world axis i. `body` may be `world`.
 ///
 /// Errors: FSB_NULL_POINTER, FSB_MISALIGNED. Values are not checked: NaN in, NaN out. For the tick.
 /// cbindgen:ptrs-as-arrays=[[attitude;9], [world;3], [body;3]]

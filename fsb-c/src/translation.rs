@@ -17,7 +17,8 @@ pub const FSB_TRANSLATION_SIZE: usize = 1152;
 /// Alignment of fsb_translation_t.
 pub const FSB_TRANSLATION_ALIGNMENT: usize = 8;
 
-/// Three axes with one k: position (x, y, z) under the force (x, y, z), k = 1/mass. Storage of the caller; what is in it is the library's.
+/// Three axes with one k: position (x, y, z) under the force (x, y, z), k = 1/mass. Storage of the caller; what
+/// is in it is the library's.
 #[repr(C)]
 pub struct fsb_translation_t {
     /// Not to be touched. Copying the whole object is fine, and the copy goes on from there.
@@ -39,11 +40,11 @@ pub struct fsb_translation_config_t {
     pub period: f64,
     /// Control periods from one measurement to the next, at least 1.
     pub substeps: u32,
-    /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper, and no less
-    /// accurate.
+    /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
+    /// and no less accurate.
     pub block: u32,
-    /// Measurements by which the identifier starts late, below `block`: several estimators on one processor then do not
-    /// complete their blocks in the same tick.
+    /// Measurements by which the identifier starts late, below `block`: several estimators on one processor then
+    /// do not complete their blocks in the same tick.
     pub turn: u32,
     /// FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
     pub readout: u32,
@@ -63,7 +64,8 @@ pub struct fsb_translation_config_t {
     pub position_limit: f64,
     /// An input of larger magnitude is rejected [N]. Up to 1e6.
     pub input_limit: f64,
-    /// Known constant drift of each axis [m/s^2]: -9.81 on an axis that points up, +9.81 on one that points down (NED). Up to 1e6.
+    /// Known constant drift of each axis [m/s^2]: -9.81 on an axis that points up, +9.81 on one that points down
+    /// (NED). Up to 1e6.
     pub drift: [f64; 3],
     /// k that the observer uses until the identified one is valid, else NaN: no state is valid before. 1e-15..1e15.
     pub nominal: f64,
@@ -71,18 +73,21 @@ pub struct fsb_translation_config_t {
     pub rule: fsb_rule_t,
 }
 
-/// The configuration for a control period [s], which is not checked here: every tick measured, no blocks, lambda 2 and q 1
-/// for the identifier, 10 and 5 for the observer, least squares that never forget, no drift, no nominal k.
+/// The configuration for a control period [s], which is not checked here: every tick measured, no blocks, lambda
+/// 2 and q 1 for the identifier, 10 and 5 for the observer, least squares that never forget, no drift, no
+/// nominal k.
 #[unsafe(no_mangle)]
 pub extern "C" fn fsb_translation_config_default(period: f64) -> fsb_translation_config_t {
     fsb_translation_config_t::new(period)
 }
 
-/// Starts an estimator in the caller's storage. Nothing else may be called with it before; calling it again starts anew.
+/// Starts an estimator in the caller's storage. Nothing else may be called with it before; calling it again
+/// starts anew.
 ///
-/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault as it is
-/// written in the configuration ("observer.lambda"; static storage), and the object is not initialised. Without a fault
-/// `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in double precision.
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault
+/// as it is written in the configuration ("observer.lambda"; static storage), and the object is not initialised.
+/// Without a fault `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in
+/// double precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_translation_init(
     estimator: *mut fsb_translation_t,
@@ -106,8 +111,8 @@ pub unsafe extern "C" fn fsb_translation_reset_identifier(estimator: *mut fsb_tr
     any::reset_identifier(estimator)
 }
 
-/// Takes the positions x, y, z [m] at the present instant; NaN where a measurement is missing. Comes before apply, every `substeps` ticks. An instant
-/// at which it is not called counts as missed on its own.
+/// Takes the positions x, y, z [m] at the present instant; NaN where a measurement is missing. Comes before
+/// apply, every `substeps` ticks. An instant at which it is not called counts as missed on its own.
 ///
 /// What is infinite or beyond the limit is rejected, counted, and treated as missing. Errors: FSB_NULL_POINTER,
 /// FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_OUT_OF_STEP; nothing has changed then. For the tick: bounded work.
@@ -120,11 +125,12 @@ pub unsafe extern "C" fn fsb_translation_measure(
     any::measure(estimator, position)
 }
 
-/// Takes the forces x, y, z [N] held over the control period that begins now, once a tick. Give what the actuators really do
-/// (saturated, and with their lag where it is known).
+/// Takes the forces x, y, z [N] held over the control period that begins now, once a tick. Give what the
+/// actuators really do (saturated, and with their lag where it is known).
 ///
-/// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before the first
-/// measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded work.
+/// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before
+/// the first measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded
+/// work.
 /// cbindgen:ptrs-as-arrays=[[input;3]]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_translation_apply(estimator: *mut fsb_translation_t, input: *const f32) -> fsb_status_t {
@@ -142,11 +148,11 @@ pub unsafe extern "C" fn fsb_translation_apply_ramp(
     any::apply_ramp(estimator, from, to)
 }
 
-/// Hands out the three states at the present control instant, predicted from the last measurement with what was applied
-/// since. What is not valid is NaN and its `status` says why.
+/// Hands out the three states at the present control instant, predicted from the last measurement with what was
+/// applied since. What is not valid is NaN and its `status` says why.
 ///
-/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED; `state` holds NaN then, where it can be written. For the
-/// tick.
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED; `state` holds NaN then, where it can be
+/// written. For the tick.
 /// cbindgen:ptrs-as-arrays=[[state;3]]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_translation_states(
@@ -167,8 +173,9 @@ pub unsafe extern "C" fn fsb_translation_state_sd(
     any::state_sd(estimator, sd)
 }
 
-/// Hands out the parameter 1/mass. What is not valid is NaN and its `status` says why. Errors as fsb_translation_states. For
-/// the tick; for mass or inertia in SI units and standard deviations see fsb_parameter_report.
+/// Hands out the parameter 1/mass. What is not valid is NaN and its `status` says why. Errors as
+/// fsb_translation_states. For the tick; for mass or inertia in SI units and standard deviations see
+/// fsb_parameter_report.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_translation_parameters(
     estimator: *const fsb_translation_t,

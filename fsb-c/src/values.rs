@@ -14,35 +14,36 @@ use crate::status::{FSB_NOT_VALID, fsb_status_t};
 pub type fsb_state_status_t = i32;
 
 /// Not usable: nothing could be read from the object.
-pub const FSB_STATE_UNKNOWN: fsb_state_status_t = 0;
+pub const FSB_STATE_UNKNOWN: i32 = 0;
 /// Not usable: this axis has not been measured yet.
-pub const FSB_STATE_NOT_MEASURED: fsb_state_status_t = 1;
+pub const FSB_STATE_NOT_MEASURED: i32 = 1;
 /// Not usable: less than the configured time has passed since the first measurement.
-pub const FSB_STATE_SETTLING: fsb_state_status_t = 2;
+pub const FSB_STATE_SETTLING: i32 = 2;
 /// Not usable: no k to predict with, as k is not valid and no nominal k was configured.
-pub const FSB_STATE_NO_PARAMETER: fsb_state_status_t = 3;
+pub const FSB_STATE_NO_PARAMETER: i32 = 3;
 /// Usable, predicted with the nominal k.
-pub const FSB_STATE_NOMINAL: fsb_state_status_t = 8;
+pub const FSB_STATE_NOMINAL: i32 = 8;
 /// Usable, predicted with the identified k.
-pub const FSB_STATE_IDENTIFIED: fsb_state_status_t = 9;
+pub const FSB_STATE_IDENTIFIED: i32 = 9;
 
 /// Whether a parameter may be used, and why not.
 pub type fsb_parameter_status_t = i32;
 
 /// Not usable: nothing could be read from the object.
-pub const FSB_PARAMETER_UNKNOWN: fsb_parameter_status_t = 0;
+pub const FSB_PARAMETER_UNKNOWN: i32 = 0;
 /// Not usable: less than the configured time has passed since the last reset.
-pub const FSB_PARAMETER_SETTLING: fsb_parameter_status_t = 1;
+pub const FSB_PARAMETER_SETTLING: i32 = 1;
 /// Not usable: the input has been zero, nothing can be said.
-pub const FSB_PARAMETER_UNEXCITED: fsb_parameter_status_t = 2;
+pub const FSB_PARAMETER_UNEXCITED: i32 = 2;
 /// Not usable: the standard deviation is above the configured share of k.
-pub const FSB_PARAMETER_UNCERTAIN: fsb_parameter_status_t = 3;
+pub const FSB_PARAMETER_UNCERTAIN: i32 = 3;
 /// Not usable: k is outside the configured range.
-pub const FSB_PARAMETER_OUTSIDE: fsb_parameter_status_t = 4;
+pub const FSB_PARAMETER_OUTSIDE: i32 = 4;
 /// Usable.
-pub const FSB_PARAMETER_VALID: fsb_parameter_status_t = 8;
+pub const FSB_PARAMETER_VALID: i32 = 8;
 
-/// Position and velocity of an axis at the present control instant. Both are NaN where `status` says that they may not be used.
+/// Position and velocity of an axis at the present control instant. Both are NaN where `status` says that they
+/// may not be used.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_state_t {
@@ -54,7 +55,8 @@ pub struct fsb_state_t {
     pub status: fsb_state_status_t,
 }
 
-/// k, which is 1/mass [1/kg] or 1/inertia [1/(kg m^2)]. `k` and `variance` are NaN unless `status` is FSB_PARAMETER_VALID.
+/// k, which is 1/mass [1/kg] or 1/inertia [1/(kg m^2)]. `k` and `variance` are NaN unless `status` is
+/// FSB_PARAMETER_VALID.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_parameter_t {
@@ -206,7 +208,8 @@ impl From<AxisDiagnostics> for fsb_diagnostics_t {
 
 /// Standard deviation of k, and mass or inertia with its standard deviation.
 ///
-/// FSB_NOT_VALID (and NaN in `report`) where the parameter is not valid. Uses two square roots: for logs, not for the tick.
+/// FSB_NOT_VALID (and NaN in `report`) where the parameter is not valid. Uses two square roots: for logs, not
+/// for the tick.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_parameter_report(
     parameter: *const fsb_parameter_t,

@@ -2,8 +2,8 @@
 
 use core::ffi::{CStr, c_char};
 
-/// Version of the interface that this header describes: 65536 * major + 256 * minor + patch. Compare it once at start-up
-/// with fsb_version(): header and library must be of the same version.
+/// Version of the interface that this header describes: 65536 * major + 256 * minor + patch. Compare it once at
+/// start-up with fsb_version(): header and library must be of the same version.
 pub const FSB_VERSION: u32 = 0x000100;
 
 const TEXT: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {

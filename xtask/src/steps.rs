@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
-use crate::{hygiene, licences, lints, setup, suite, target};
+use crate::{c_interface, hygiene, licences, lints, setup, suite, target};
 
 /// One step of the gate.
 #[derive(Debug)]
@@ -25,6 +25,11 @@ pub const STEPS: &[Step] = &[
     Step { name: "licences", about: "every dependency under a licence of the allow-list", run: licences::run },
     Step { name: "clippy", about: "lints, all targets and features, warnings denied", run: lints::clippy },
     Step { name: "target", about: "the core on thumbv7em with every feature combination", run: target::run },
+    Step {
+        name: "c",
+        about: "the C interface: header, tests, size, the same bits on the target",
+        run: c_interface::run,
+    },
     Step { name: "doc", about: "documentation, warnings denied", run: lints::doc },
     Step { name: "suite", about: "cargo test on the whole workspace", run: suite::run },
 ];
