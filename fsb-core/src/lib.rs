@@ -3,7 +3,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod compensated;
+pub mod accumulator;
 pub mod control;
 pub mod error;
 pub mod estimator;

@@ -1,43 +1,69 @@
-//! The two input moments over an interval of length T, section 2 of the design:
+//! The two moments of the input over a measurement interval of length T, section 2 of the design, in units of the input:
 //!
-//! J1 = ∫ f(τ) dτ,   J2 = ∫ (T - τ) f(τ) dτ,
+//! j1 = J1/T = (1/T) ∫ f(τ) dτ,   j2 = J2/T² = (1/T²) ∫ (T - τ) f(τ) dτ,
 //!
-//! the velocity and the position that the input alone gives a unit mass at rest. They are all the estimator ever needs to
-//! know of the input, and they are exact for an input held, linear, or held piecewise (control faster than measurement).
+//! the velocity and the position that the input alone gives a unit mass at rest, the interval being the unit of time. They
+//! are all the estimator ever needs to know of the input, and exact for an input held, linear, or held piecewise (control
+//! faster than measurement). Held over the whole interval: j1 = f, j2 = f/2.
 
-/// (J1, J2) over the interval so far. Units of the input times s and s².
+use crate::error::ConfigError;
+
+/// (j1, j2) over the part of the interval so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct InputMoments {
-    /// J1 = ∫ f dτ: the unit response's velocity.
+    /// The mean input: the unit response's velocity over T.
     pub j1: f32,
-    /// J2 = ∫ (T - τ) f dτ: the unit response's position.
+    /// The unit response's position over T².
     pub j2: f32,
 }
 
+/// The part of an interval that one control period is: 1/R.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Substep {
+    /// 1/R
+    share: f32,
+    /// 1/(2R²)
+    half_share2: f32,
+    /// 1/(6R²)
+    sixth_share2: f32,
+}
+
+impl Substep {
+    /// `substeps` control periods to an interval.
+    ///
+    /// # Errors
+    /// Names `substeps` if it is zero.
+    pub fn new(substeps: u32) -> Result<Self, ConfigError> {
+        if substeps == 0 {
+            return Err(ConfigError::Zero("substeps"));
+        }
+        let share = 1.0 / f64::from(substeps);
+        Ok(Self {
+            share: share as f32,
+            half_share2: (share * share / 2.0) as f32,
+            sixth_share2: (share * share / 6.0) as f32,
+        })
+    }
+}
+
 impl InputMoments {
-    /// An interval of length zero.
+    /// An interval that has just begun.
     pub const ZERO: Self = Self { j1: 0.0, j2: 0.0 };
 
-    /// Appends `dt` [s] of an input held at `f`: J2 += J1 dt + f dt²/2, J1 += f dt. `dt2_half` is dt²/2.
+    /// Appends a control period of an input held at `f`: j2 += j1/R + f/(2R²), j1 += f/R.
     #[inline(always)]
-    pub fn hold(&mut self, f: f32, dt: f32, dt2_half: f32) {
-        self.j2 += self.j1 * dt + f * dt2_half;
-        self.j1 += f * dt;
+    pub fn hold(&mut self, f: f32, step: &Substep) {
+        self.j2 += self.j1 * step.share + f * step.half_share2;
+        self.j1 += f * step.share;
     }
 
-    /// Appends `dt` [s] of an input that goes linearly from `f0` to `f1`: J2 += J1 dt + dt²/6 (2 f0 + f1), J1 += dt/2 (f0 + f1).
-    /// `dt2_half` is dt²/2.
+    /// Appends a control period of an input going linearly from `f0` to `f1`: j2 += j1/R + (2 f0 + f1)/(6R²),
+    /// j1 += (f0 + f1)/(2R).
     #[inline(always)]
-    pub fn ramp(&mut self, f0: f32, f1: f32, dt: f32, dt2_half: f32) {
-        self.j2 += self.j1 * dt + dt2_half * ((f0 + f0 + f1) * (1.0 / 3.0));
-        self.j1 += dt * ((f0 + f1) * 0.5);
-    }
-
-    /// Appends an interval of `dt` [s] whose own moments are known.
-    #[inline(always)]
-    pub fn append(&mut self, later: InputMoments, dt: f32) {
-        self.j2 += self.j1 * dt + later.j2;
-        self.j1 += later.j1;
+    pub fn ramp(&mut self, f0: f32, f1: f32, step: &Substep) {
+        self.j2 += self.j1 * step.share + (f0 + f0 + f1) * step.sixth_share2;
+        self.j1 += (f0 + f1) * (0.5 * step.share);
     }
 }

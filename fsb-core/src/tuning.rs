@@ -10,9 +10,9 @@ use crate::error::{ConfigError, positive};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tuning {
-    /// Cut-off λ of the invariant filter G(s) = 1/(s + λ), (28) [1/s]. `1e-6 <= λT <= 1`.
+    /// Cut-off λ of the invariant filter G(s) = 1/(s + λ), (28), in 1/s. `1e-6 <= λT <= 1`.
     pub lambda: f64,
-    /// Frequency shift q of the difference operator (17) [1/s]: how fast the window `h(t) = 1 - e^(-qt)` opens. `1e-6 <= qT <= 1`.
+    /// Frequency shift q of the difference operator (17), in 1/s: how fast the window `h(t) = 1 - e^(-qt)` opens. `1e-6 <= qT <= 1`.
     pub q: f64,
 }
 
@@ -22,7 +22,7 @@ impl Tuning {
         Self { lambda, q: lambda / 2.0 }
     }
 
-    /// Validates the tuning at `period` [s].
+    /// Validates the tuning at `period`, in s.
     pub(crate) fn decay(
         &self,
         period: f64,
@@ -32,6 +32,14 @@ impl Tuning {
         let c = rounded_decay(positive(lambda_name, self.lambda)? * period, lambda_name)?;
         let alpha = rounded_decay(positive(q_name, self.q)? * period, q_name)?;
         Ok(Decay { period, c, p: 1.0 - c, alpha, rho: 1.0 - alpha })
+    }
+}
+
+impl Decay {
+    /// The same decay over `steps` periods.
+    pub(crate) fn over(&self, steps: u32) -> Self {
+        let (p, rho) = (libm::pow(self.p, f64::from(steps)), libm::pow(self.rho, f64::from(steps)));
+        Self { period: self.period * f64::from(steps), c: 1.0 - p, p, alpha: 1.0 - rho, rho }
     }
 }
 
@@ -46,7 +54,7 @@ fn rounded_decay(x: f64, name: &'static str) -> Result<f64, ConfigError> {
     Ok(f64::from(-libm::expm1(-x) as f32))
 }
 
-/// The period [s] must keep T² and 1/T² far from the ends of f32: `1e-6 <= T <= 1e3`.
+/// The period, in s, must keep T² and 1/T² far from the ends of f32: `1e-6 <= T <= 1e3`.
 pub(crate) fn checked_period(name: &'static str, period: f64) -> Result<f64, ConfigError> {
     if (1e-6..=1e3).contains(&positive(name, period)?) { Ok(period) } else { Err(ConfigError::OutOfRange(name)) }
 }

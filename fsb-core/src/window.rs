@@ -1,17 +1,18 @@
-//! The window g[n] = h[n] h[n+1], the sampled counterpart of h(t)² in (39), by recurrence.
+//! The window g\[n\] = h\[n\] h\[n+1\], the sampled counterpart of h(t)² in (39), by recurrence.
 //!
-//! With ρ = e^(-qT): e[n] = ρ^n and h[n] = 1 - ρ^n. The frequency shift (21) multiplies a sequence by ρ^n; the operator
-//! (σ - 1)(ρσ - 1), the sampled counterpart of δ_q² in (20), multiplies it by g[n]. g vanishes at n = -1 and n = 0, which
+//! With ρ = e^(-qT): e\[n\] = ρ^n and h\[n\] = 1 - ρ^n. The frequency shift (21) multiplies a sequence by ρ^n; the operator
+//! (σ - 1)(ρσ - 1), the sampled counterpart of δ_q² in (20), multiplies it by g\[n\]. g vanishes at n = -1 and n = 0, which
 //! is what removes y(0) and y'(0).
 //!
 //! Numerics: e by multiplication keeps its relative precision for ever; h by accumulation is exact near 0, where it
 //! matters, and would stagnate near 1. From e = 1/2 on it is therefore h∞ - e, with the h∞ = h + e of that moment and not 1:
 //! a window that jumps, if only by an ulp, looks like a position that jumps, while nothing in the identity needs h∞ = 1.
-//! Both are compensated sums: a rounding error that stays in the window is a step of it, and costs 1e-6 of k at 8 kHz; one
-//! that is made up for at the next sample costs nothing. e is set to 0 below 1e-30, so it never becomes subnormal.
-//! Cost: 11 operations a step, 9 with the neighbours; no transcendental.
+//! Both are accumulators: a rounding error that stays in the window is a step of it, and costs 1e-6 of k at 8 kHz; one
+//! that is made up for at the next sample costs nothing. Below 1e-9 e no longer moves any f32 that depends on it; it is set
+//! to 0 then, and the window is settled.
+//! Cost: 15 operations a step, 9 for the neighbours; no transcendental.
 
-use crate::compensated::CompensatedSum;
+use crate::accumulator::Accumulator;
 use crate::tuning::Decay;
 
 /// Constants of the window.
@@ -31,8 +32,8 @@ impl WindowDesign {
 /// e = ρ^n and h = 1 - ρ^n at the current sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    e: CompensatedSum,
-    h: CompensatedSum,
+    e: Accumulator,
+    h: Accumulator,
     /// h + e.
     limit: f32,
 }
@@ -42,22 +43,35 @@ pub struct Window {
 pub(crate) struct Neighbours {
     /// ρ^n
     pub e: f32,
-    /// h[n]
+    /// h\[n\]
     pub h: f32,
-    /// h[n+1]
+    /// h\[n+1\]
     pub h_next: f32,
-    /// h[n+2]
+    /// h\[n+2\]
     pub h_after: f32,
-    /// g[n-1] = h[n-1] h[n]
+    /// g\[n-1\] = h\[n-1\] h\[n\]
     pub g_before: f32,
-    /// g[n+1] = h[n+1] h[n+2]
+    /// g\[n+1\] = h\[n+1\] h\[n+2\]
     pub g_after: f32,
 }
 
 impl Window {
     /// n = 0: e = 1, h = 0.
-    pub const START: Self = Self { e: CompensatedSum::new(1.0), h: CompensatedSum::ZERO, limit: 1.0 };
+    pub const START: Self = Self { e: Accumulator::new(1.0), h: Accumulator::ZERO, limit: 1.0 };
 
+    /// At e = e^(-`qt`). Uses an exponential: not for the tick.
+    pub(crate) fn after(qt: f64) -> Self {
+        let (e, h) = (libm::exp(-qt) as f32, -libm::expm1(-qt) as f32);
+        Self { e: Accumulator::new(e), h: Accumulator::new(h), limit: h + e }
+    }
+
+    /// Whether the window is fully open: every further step changes nothing.
+    #[inline(always)]
+    pub const fn is_settled(&self) -> bool {
+        self.e.value() == 0.0
+    }
+
+    #[inline(always)]
     pub(crate) fn neighbours(&self, design: &WindowDesign) -> Neighbours {
         let (e, h) = (self.e.value(), self.h.value());
         let h_before = h - design.alpha_over_rho * e;
@@ -67,19 +81,21 @@ impl Window {
         Neighbours { e, h, h_next, h_after, g_before: h_before * h, g_after: h_next * h_after }
     }
 
-    /// n ← n + 1.
+    /// n ← n + 1, or by as many samples as `design` is for.
+    #[inline(always)]
     pub(crate) fn step(&mut self, design: &WindowDesign) {
         let e = self.e.value();
         let step = design.alpha * e;
-        self.e.add(-step);
         if e > 0.5 {
-            self.h.add(step);
+            self.e.add_folded(-step);
+            self.h.add_folded(step);
             self.limit = self.h.value() + self.e.value();
         } else {
-            if e < 1e-30 {
-                self.e = CompensatedSum::ZERO;
+            self.e.add_folded(-step);
+            if e < 1e-9 {
+                self.e = Accumulator::ZERO;
             }
-            self.h = CompensatedSum::new(self.limit - self.e.value());
+            self.h = Accumulator::new(self.limit - self.e.value());
         }
     }
 }

@@ -8,11 +8,11 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TrackingConfig {
-    /// K_P of (12) [1/s²]; positive.
+    /// K_P of (12) (1/s²); positive.
     pub kp: f64,
-    /// K_D of (12) [1/s]; positive.
+    /// K_D of (12) (1/s); positive.
     pub kd: f64,
-    /// Known drift c of the axis [m/s² or rad/s²], -g on a vertical axis that points up; the input makes up for it.
+    /// Known drift c of the axis (m/s² or rad/s²), -g on a vertical axis that points up; the input makes up for it.
     pub drift: f64,
     /// The smallest parameter that the controller divides by; positive.
     pub parameter_min: f64,
@@ -24,11 +24,11 @@ pub struct TrackingConfig {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reference {
-    /// y_d [m or rad].
+    /// y_d (m or rad).
     pub position: f32,
-    /// y_d' [m/s or rad/s].
+    /// y_d' (m/s or rad/s).
     pub velocity: f32,
-    /// y_d'' [m/s² or rad/s²].
+    /// y_d'' (m/s² or rad/s²).
     pub acceleration: f32,
 }
 

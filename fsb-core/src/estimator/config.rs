@@ -7,7 +7,7 @@ use crate::tuning::Tuning;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EstimatorConfig<const N: usize, const P: usize> {
-    /// Control period [s]: the time from one input to the next. 1e-6..=1e3.
+    /// Control period (s): the time from one input to the next. 1e-6..=1e3.
     pub period: f64,
     /// Control periods from one measurement to the next, at least 1. The measurement period is `T = substeps * period`.
     pub substeps: u32,
@@ -21,26 +21,26 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     pub identifier: Tuning,
     /// λ and q of the observer.
     pub observer: Tuning,
-    /// Standard deviation of a measurement [m or rad], where it is known beforehand. It is used until enough samples have
+    /// Standard deviation of a measurement (m or rad), where it is known beforehand. It is used until enough samples have
     /// been seen to learn it; without it k̂ cannot be valid in the first eight steps of the variance (each 0.04/λ or a block).
     pub noise_sd: Option<f64>,
     /// How k is read out.
     pub readout: Readout,
     /// How long the read-out remembers.
     pub memory: Memory,
-    /// Known constant drift c of each axis [m/s² or rad/s²], -g on a vertical axis that points up. Magnitude up to 1e6.
+    /// Known constant drift c of each axis (m/s² or rad/s²), -g on a vertical axis that points up. Magnitude up to 1e6.
     pub drift: [f64; N],
     /// k0 of each parameter, used by the observer until k̂ is valid. `None`: no state is handed out before.
     pub nominal: [Option<f64>; P],
     /// When k̂ of each parameter counts as valid.
     pub rule: [ParameterRule; P],
-    /// ε of the parameter [s]: k̂ is not valid earlier.
+    /// ε of the parameter (s): k̂ is not valid earlier.
     pub parameter_settle: f64,
-    /// ε of the state [s]: position and velocity are not handed out earlier.
+    /// ε of the state (s): position and velocity are not handed out earlier.
     pub state_settle: f64,
-    /// A measurement of larger magnitude is rejected [m or rad]. Up to 1e6.
+    /// A measurement of larger magnitude is rejected (m or rad). Up to 1e6.
     pub position_limit: f64,
-    /// An input of larger magnitude is rejected [N or N m]. Up to 1e6.
+    /// An input of larger magnitude is rejected (N or N m). Up to 1e6.
     pub input_limit: f64,
 }
 

@@ -3,31 +3,44 @@
 use super::config::EstimatorConfig;
 use crate::error::{ConfigError, finite, positive};
 use crate::identifier::{BlockDesign, IdentifierDesign};
+use crate::moments::Substep;
 use crate::observer::ObserverDesign;
-use crate::readout::{CheckedRule, CovarianceDesign, NoiseLevel, Readout};
-use crate::tuning::checked_period;
+use crate::readout::{CheckedRule, CovarianceDesign, NoiseLevel, Readout, innovation_step_gain};
+use crate::tuning::{Tuning, checked_period};
+use crate::window::WindowDesign;
 
 /// The immutable part of an [`super::Estimator`]; one may serve several.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EstimatorDesign<const N: usize, const P: usize> {
-    /// Control period and half its square.
-    pub(super) control_period: f32,
-    pub(super) control_half_period2: f32,
+    /// R
     pub(super) substeps: u32,
+    pub(super) substep: Substep,
+    /// 1/R
+    pub(super) substep_share: f32,
+    /// M
     pub(super) block_length: u32,
-    pub(super) turn: u32,
+    pub(super) schedule: Schedule,
     pub(super) observer: ObserverDesign,
+    /// The observer's window over `schedule.gains_every` samples.
+    pub(super) observer_stride: WindowDesign,
     pub(super) identifier: IdentifierDesign,
     pub(super) block: BlockDesign,
     pub(super) covariance: CovarianceDesign,
+    /// What turns the squared step of the innovation into the variance of a block's mean.
+    pub(super) innovation_to_mean: f32,
     pub(super) readout: Readout,
     pub(super) forgetting: f32,
     /// 1 - μ² over a coarse step
     pub(super) noise_forgetting: f32,
     pub(super) noise: NoiseLevel,
+    /// c
     pub(super) drift: [f32; N],
+    /// c T²
+    pub(super) drift_t2: [f32; N],
     pub(super) any_drift: bool,
+    /// T²
+    pub(super) period2: f32,
     pub(super) nominal: [Option<f32>; P],
     pub(super) rule: [CheckedRule; P],
     /// ε in measurements
@@ -37,10 +50,51 @@ pub struct EstimatorDesign<const N: usize, const P: usize> {
     pub(super) late_settle: u32,
     pub(super) position_limit: f32,
     pub(super) input_limit: f32,
+    /// As configured, for reports.
+    pub(super) observer_tuning: Tuning,
+    pub(super) measurement_period: f64,
+}
+
+/// Which measurement does what, so that no tick carries everything.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Schedule {
+    /// Measurements by which this estimator's turns come later.
+    pub turn: u32,
+    /// Measurement within a block at which the identifier's weights for it are computed.
+    pub weights_at: u32,
+    /// The observer's gains are renewed every so many measurements, once they change slowly; any gains leave the estimate
+    /// exact, these are within a few per cent of the best ones.
+    pub gains_every: u32,
+    /// Measurements until the first of those.
+    pub gains_first: u32,
+    /// Blocks of one: each axis folds its sums and reads its parameter every so many measurements.
+    pub service_every: u32,
+}
+
+impl Schedule {
+    const UNHURRIED: f64 = 5e-3;
+
+    fn new(axes: u32, block: u32, turn: u32, period: f64) -> Self {
+        let gains_every = if (8..=16).contains(&block) { block } else { 8 };
+        // With blocks of ten and three axes a group completes blocks at 9, 0 and 1, computes its weights at 5, and a group
+        // with turn 3 at 2, 3, 4 and 8: 7 and 6 are left for the gains.
+        let slot = if turn == 0 { gains_every - 3 } else { gains_every - 4 };
+        Self {
+            turn,
+            weights_at: (axes + 2).min(block - 1),
+            gains_every,
+            gains_first: slot,
+            service_every: if period >= Self::UNHURRIED { 1 } else { 8 },
+        }
+    }
 }
 
 impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
-    const SHAPE: () = assert!(N >= 1 && (P == 1 || P == N), "P must be 1 (pooled) or N (one parameter per axis)");
+    const SHAPE: () = assert!(
+        N >= 1 && N <= 8 && (P == 1 || P == N),
+        "at most 8 axes; P must be 1 (pooled) or N (one parameter per axis)"
+    );
 
     /// Validates `config`.
     ///
@@ -54,11 +108,11 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
             if count == 0 {
                 return Err(ConfigError::Zero(name));
             }
-            if count > 65_536 {
+            if count > 65_535 {
                 return Err(ConfigError::OutOfRange(name));
             }
         }
-        if config.turn >= config.block {
+        if config.turn >= config.block.max(8) {
             return Err(ConfigError::OutOfRange("turn"));
         }
         let period = checked_period("substeps", control * f64::from(config.substeps))?;
@@ -67,11 +121,13 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
         let forgetting = config.memory.forgetting(step)?;
         let covariance = CovarianceDesign::new(config.identifier.lambda, config.identifier.q, step, forgetting);
         let mut drift = [0.0; N];
-        for (out, &c) in drift.iter_mut().zip(&config.drift) {
+        let mut drift_t2 = [0.0; N];
+        for ((out, out_t2), &c) in drift.iter_mut().zip(drift_t2.iter_mut()).zip(&config.drift) {
             if finite("drift", c)?.abs() > 1e6 {
                 return Err(ConfigError::OutOfRange("drift"));
             }
             *out = c as f32;
+            *out_t2 = (c * period * period) as f32;
         }
         let mut nominal = [None; P];
         for (out, k) in nominal.iter_mut().zip(config.nominal) {
@@ -93,22 +149,29 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
         for (out, r) in rule.iter_mut().zip(&config.rule) {
             *out = r.checked()?;
         }
+        let schedule = Schedule::new(N as u32, config.block, config.turn, period);
+        let observer_decay = config.observer.decay(period, "observer.lambda", "observer.q")?;
+        let p = observer_decay.p;
         Ok(Self {
-            control_period: control as f32,
-            control_half_period2: (control * control / 2.0) as f32,
             substeps: config.substeps,
+            substep: Substep::new(config.substeps)?,
+            substep_share: (1.0 / f64::from(config.substeps)) as f32,
             block_length: config.block,
-            turn: config.turn,
-            observer: ObserverDesign::named(config.observer, period, "observer.lambda", "observer.q")?,
+            schedule,
+            observer: ObserverDesign::from_decay(&observer_decay),
+            observer_stride: WindowDesign::new(&observer_decay.over(schedule.gains_every)),
             identifier: IdentifierDesign::from_decay(&decay),
-            block: BlockDesign::new(period, config.block),
+            block: BlockDesign::new(config.block),
+            innovation_to_mean: (1.0 / (innovation_step_gain(p) * f64::from(config.block))) as f32,
             readout: config.readout,
             forgetting: forgetting as f32,
             noise_forgetting: covariance.noise_forgetting(),
             covariance,
             noise,
             drift,
+            drift_t2,
             any_drift: drift.iter().any(|&c| c != 0.0),
+            period2: (period * period) as f32,
             nominal,
             rule,
             parameter_settle: samples("parameter_settle", config.parameter_settle, period)?,
@@ -116,23 +179,22 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
             late_settle: samples("observer.lambda", 8.0 / config.observer.lambda, period)?,
             position_limit: limit("position_limit", config.position_limit)?,
             input_limit: limit("input_limit", config.input_limit)?,
+            observer_tuning: config.observer,
+            measurement_period: period,
         })
     }
 
     /// The parameter that `axis` shares in.
+    #[inline(always)]
     pub(super) const fn parameter_of(axis: usize) -> usize {
         if P == 1 { 0 } else { axis }
     }
 
     /// Blocks after a coarse step of the shared covariance at which the axis takes its own. Where all axes complete their
     /// blocks at once (M = 1) they take turns.
+    #[inline(always)]
     pub(super) const fn coarse_slot(&self, axis: usize) -> u32 {
         if self.block_length == 1 && self.covariance.steps as usize > N { axis as u32 + 1 } else { 0 }
-    }
-
-    /// Measurements by which the axis begins its blocks later than the first one does.
-    pub(super) const fn offset(&self, axis: usize) -> u32 {
-        axis as u32 % self.block_length
     }
 }
 

@@ -5,19 +5,96 @@
 //! | file | what |
 //! |---|---|
 //! | `config` | plain data |
-//! | `design` | the same, validated and turned into constants |
-//! | `axis` | the state of one axis and its step |
-//! | `shared` | the state that depends on time alone: windows, gains, covariance |
-//! | `output` | what is handed out |
+//! | `design` | the same, validated and turned into constants; what is done when |
+//! | `axis` | the state of one axis, and what it does now and then |
+//! | `shared` | the state that depends on time alone: windows, gains, weights, covariance |
+//! | `step` | the two calls a tick |
+//! | `readings` | what is handed out |
+//! | `output` | the types of that |
 
 mod axis;
 mod config;
 mod design;
 mod output;
+mod readings;
 mod shared;
 mod step;
 
 pub use config::EstimatorConfig;
 pub use design::EstimatorDesign;
 pub use output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
-pub use step::Estimator;
+
+use crate::error::ConfigError;
+use crate::readout::ParameterState;
+use axis::Axis;
+use shared::{IdentifierClock, ObserverClock};
+
+/// k of N axes (P parameters), their positions and velocities, from positions and known inputs alone.
+///
+/// Model (15): `y'' = k f + c` per axis, c known. At a measurement instant call [`measure`](Self::measure) with the
+/// positions; compute the control; call [`apply`](Self::apply) with the input that is held until the next control instant.
+/// A measurement instant comes every `substeps` control periods, the first with the first call of `measure`. Where
+/// `measure` is not called at such an instant, or an axis gives `None`, the axis is predicted and not corrected.
+///
+/// Non-finite policy: a measurement or an input that is not finite, or larger than its limit, is rejected and counted; a
+/// rejected measurement counts as missed, a rejected input is replaced by the axis's mean input of late.
+/// What is not valid is not handed out: see [`parameters`](Self::parameters) and [`states`](Self::states).
+/// No allocation, no panic, no transcendental, bounded work a call.
+#[derive(Clone, Copy, Debug)]
+pub struct Estimator<const N: usize, const P: usize> {
+    design: EstimatorDesign<N, P>,
+    observer: ObserverClock,
+    identifier: IdentifierClock,
+    axes: [Axis; N],
+    parameters: [ParameterState; P],
+    /// Control periods since the last measurement instant.
+    substep: u32,
+    started: bool,
+    /// Every axis has been measured and not been lost.
+    all_measured: bool,
+    counters: Counters,
+}
+
+impl<const N: usize, const P: usize> Estimator<N, P> {
+    /// Validates `config` and starts empty.
+    ///
+    /// # Errors
+    /// As [`EstimatorDesign::new`].
+    pub fn new(config: &EstimatorConfig<N, P>) -> Result<Self, ConfigError> {
+        Ok(Self::with_design(EstimatorDesign::new(config)?))
+    }
+
+    /// Starts empty on a design made before.
+    pub fn with_design(design: EstimatorDesign<N, P>) -> Self {
+        Self {
+            observer: ObserverClock::start(design.schedule.gains_first),
+            identifier: IdentifierClock::start(design.schedule.turn),
+            axes: [Axis::start(design.noise); N],
+            parameters: [ParameterState::START; P],
+            substep: 0,
+            started: false,
+            all_measured: false,
+            counters: Counters::default(),
+            design,
+        }
+    }
+
+    /// Forgets everything but the design and the counters.
+    pub fn reset(&mut self) {
+        *self = Self { counters: self.counters, ..Self::with_design(self.design) };
+    }
+
+    /// Starts the identification anew (section III of the paper: "each reinitialization"), the observer going on. Until
+    /// the new k̂ is valid the observer predicts with the nominal parameter, if there is one.
+    pub fn reset_identifier(&mut self) {
+        self.identifier = IdentifierClock::start(self.design.schedule.turn);
+        self.parameters = [ParameterState::START; P];
+        for (index, axis) in self.axes.iter_mut().enumerate() {
+            axis.reset_identifier(self.design.noise);
+            let parameter_index = EstimatorDesign::<N, P>::parameter_of(index);
+            let nominal = self.design.nominal.get(parameter_index).copied().flatten();
+            let clocks = (&self.identifier, &self.observer);
+            axis.follow(index, &ParameterState::START, nominal, clocks, &self.design);
+        }
+    }
+}

@@ -6,9 +6,9 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AxisState {
-    /// ŷ [m or rad], in the frame of the measurement.
+    /// ŷ (m or rad), in the frame of the measurement.
     pub position: f32,
-    /// v̂ [m/s or rad/s].
+    /// v̂ (m/s or rad/s).
     pub velocity: f32,
 }
 
@@ -73,9 +73,9 @@ pub struct Counters {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AxisDiagnostics {
-    /// ẑ2 with the known drift removed: windowed, filtered acceleration [m/s² or rad/s²].
+    /// ẑ2 with the known drift removed: windowed, filtered acceleration (m/s² or rad/s²).
     pub z2: f32,
-    /// ẑ0: windowed, filtered input [N or N m].
+    /// ẑ0: windowed, filtered input (N or N m).
     pub z0: f32,
     /// ẑu: windowed, filtered one.
     pub zu: f32,

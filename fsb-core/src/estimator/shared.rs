@@ -2,7 +2,7 @@
 
 use super::design::EstimatorDesign;
 use crate::identifier::{Coefficients, UnitChain};
-use crate::observer::{Gains, NoiseGain};
+use crate::observer::Gains;
 use crate::readout::NoiseShape;
 use crate::window::Window;
 
@@ -12,28 +12,49 @@ pub(super) struct ObserverClock {
     window: Window,
     pub gains: Gains,
     pub before: Gains,
-    pub noise_gain: NoiseGain,
-    /// Measurements since the first one; saturates.
+    /// Measurement instants since the first one; saturates.
     pub count: u32,
+    /// Measurements until the gains are renewed.
+    until: u32,
+    /// The window moves with the renewals, not with the measurements.
+    striding: bool,
 }
 
 impl ObserverClock {
-    pub const START: Self = Self {
-        window: Window::START,
-        gains: Gains::FIRST,
-        before: Gains::FIRST,
-        noise_gain: NoiseGain::FIRST,
-        count: 0,
-    };
+    /// Measurements in which the gains change too fast to be held.
+    const HURRIED: u32 = 32;
+
+    pub const fn start(first: u32) -> Self {
+        Self {
+            window: Window::START,
+            gains: Gains::FIRST,
+            before: Gains::FIRST,
+            count: 0,
+            until: first,
+            striding: false,
+        }
+    }
 
     /// To the next measurement.
     #[inline(always)]
     pub fn step<const N: usize, const P: usize>(&mut self, design: &EstimatorDesign<N, P>) {
-        self.window.step(&design.observer.window);
         self.before = self.gains;
-        self.gains = Gains::at(&self.window, &design.observer);
-        self.noise_gain.correct(&self.gains);
         self.count = self.count.saturating_add(1);
+        let due = self.until == 0;
+        self.until = if due { design.schedule.gains_every - 1 } else { self.until - 1 };
+        if self.striding {
+            if due && !self.window.is_settled() {
+                self.window.step(&design.observer_stride);
+                self.gains = Gains::at(&self.window, &design.observer);
+            }
+        } else {
+            self.window.step(&design.observer.window);
+            // The first ones at once, the next in turns with an estimator that has another turn.
+            if self.count < 4 || (self.count ^ design.schedule.turn) & 1 == 0 {
+                self.gains = Gains::at(&self.window, &design.observer);
+            }
+            self.striding = due && self.count >= Self::HURRIED;
+        }
     }
 }
 
@@ -44,16 +65,18 @@ pub(super) struct IdentifierClock {
     pub at: Coefficients,
     pub unit: UnitChain,
     pub shape: NoiseShape,
-    /// Measurements into the block of the first axis.
+    /// The present measurement's place in the block of the first axis.
     pub position: u32,
     /// Measurements until the identification begins.
     pub delay: u32,
-    /// Blocks completed since the reset; saturates.
+    /// Measurements since the identification began; saturates.
+    pub age: u32,
+    /// Blocks for which weights have been computed; saturates.
     pub blocks: u32,
     /// Blocks since the last coarse step.
     pub stride: u32,
-    /// Measurements since the identification began, the present one included; saturates.
-    pub age: u32,
+    /// The window is fully open: the weights stay.
+    settled: bool,
 }
 
 impl IdentifierClock {
@@ -65,24 +88,29 @@ impl IdentifierClock {
             shape: NoiseShape::START,
             position: 0,
             delay: turn,
+            age: 0,
             blocks: 0,
             stride: 0,
-            age: 0,
+            settled: false,
         }
     }
 
-    /// What the first axis's completed block brings: new weights for all axes, and every D-th time a coarse step.
+    /// The weights for the present block, for all axes, and every D-th time a coarse step.
     #[inline(always)]
     pub fn step<const N: usize, const P: usize>(&mut self, design: &EstimatorDesign<N, P>) {
         let identifier = &design.identifier;
-        self.at = Coefficients::at(&self.window, identifier);
-        self.window.step(&identifier.window);
+        let last = design.covariance.steps - 1;
+        self.stride = if self.blocks == 0 || self.stride >= last { 0 } else { self.stride + 1 };
+        if self.stride == 0 {
+            self.shape.step(&self.window, &design.covariance);
+        }
+        if !self.settled {
+            self.at = Coefficients::at(&self.window, identifier);
+            self.settled = self.window.is_settled();
+            self.window.step(&identifier.window);
+        }
         if design.any_drift {
             self.unit.step(identifier, &self.at);
-        }
-        self.stride = if self.blocks == 0 || self.stride + 1 >= design.covariance.steps { 0 } else { self.stride + 1 };
-        if self.stride == 0 {
-            self.shape.step(&design.covariance);
         }
         self.blocks = self.blocks.saturating_add(1);
     }

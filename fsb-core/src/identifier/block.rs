@@ -1,12 +1,12 @@
-//! The identity for means over blocks of M samples (design, section 11).
+//! The identity for means over blocks of M samples (design, section 11), with T as the unit of time.
 //!
 //! A filter of both sides leaves the identity exact, and so does a mean. With the unit response to the input from rest
 //! inside each block (φ position, ψ velocity), P = φ and V = ψ at its end, and s the mean of φ over its samples,
 //!
-//! S̄ = M T V[-2] + P[-1] - P[-2] + τ (V[-1] - V[-2]) + s[0] - 2 s[-1] + s[-2],   τ = (M-1) T/2.
+//! S̄ = M V\[-2\] + P\[-1\] - P\[-2\] + τ (V\[-1\] - V\[-2\]) + s\[0\] - 2 s\[-1\] + s\[-2\],   τ = (M-1)/2.
 //!
-//! M = 1 is the plain identity: s = 0, τ = 0, P = J2, V = J1.
-//! With A = P + τ V - s this is S̄ = s[0] - s[-1] + A[-1] - (A[-2] - M T V[-2]): four numbers of the past are enough.
+//! With A = P + τ V - s this is S̄ = s\[0\] - s\[-1\] + A\[-1\] - (A\[-2\] - M V\[-2\]): two numbers of the past are enough.
+//! M = 1 is the plain identity: s = 0, τ = 0, P = j2, V = j1.
 
 use crate::moments::InputMoments;
 
@@ -14,42 +14,36 @@ use crate::moments::InputMoments;
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BlockDesign {
-    /// T
-    pub(crate) period: f32,
+    /// M
+    pub(crate) length: f32,
     /// 1/M
     pub(crate) per_length: f32,
-    /// M T
-    pub(crate) duration: f32,
-    /// 1/(M T)
-    pub(crate) per_duration: f32,
-    /// τ = (M-1) T/2
+    /// 1/M²
+    pub(crate) per_length2: f32,
+    /// τ = (M-1)/2
     pub(crate) centre: f32,
-    /// (M-1) T, from the first to the last sample
+    /// M - 1, from the first to the last sample
     pub(crate) span: f32,
-    /// s of a unit input: T² (M-1)(2M-1)/12
+    /// s of a unit input: (M-1)(2M-1)/12
     pub(crate) unit_s: f32,
-    /// P + τ V of a unit input: (MT)²/2 + τ M T
-    pub(crate) unit_step: f32,
-    /// (MT)²
-    pub(crate) duration2: f32,
+    /// A - M V of a unit input held for ever: M²/2 + τ M - s - M²
+    pub(crate) unit_past: f32,
 }
 
 impl BlockDesign {
-    /// Blocks of `length` samples at `period` [s]; both are taken as valid.
-    pub(crate) fn new(period: f64, length: u32) -> Self {
+    /// Blocks of `length` samples, at least one.
+    pub(crate) fn new(length: u32) -> Self {
         let m = f64::from(length);
-        let duration = m * period;
-        let centre = (m - 1.0) * period / 2.0;
+        let centre = (m - 1.0) / 2.0;
+        let unit_s = (m - 1.0) * (2.0 * m - 1.0) / 12.0;
         Self {
-            period: period as f32,
+            length: m as f32,
             per_length: (1.0 / m) as f32,
-            duration: duration as f32,
-            per_duration: (1.0 / duration) as f32,
+            per_length2: (1.0 / (m * m)) as f32,
             centre: centre as f32,
-            span: ((m - 1.0) * period) as f32,
-            unit_s: (period * period * (m - 1.0) * (2.0 * m - 1.0) / 12.0) as f32,
-            unit_step: (duration * duration / 2.0 + centre * duration) as f32,
-            duration2: (duration * duration) as f32,
+            span: (m - 1.0) as f32,
+            unit_s: unit_s as f32,
+            unit_past: (centre * m - unit_s - m * m / 2.0) as f32,
         }
     }
 }
@@ -57,58 +51,86 @@ impl BlockDesign {
 /// One axis's block in progress and what is left of the two before it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BlockMeans {
-    /// Σ of positions in the block; the mean once the block is complete.
+    /// Σ of positions in the block.
     sum_y: f32,
-    /// Σ φ in the block; the mean s once the block is complete.
+    /// Σ φ in the block.
     sum_phi: f32,
-    /// ψ, φ since the block's first sample.
-    pub(crate) response: InputMoments,
-    /// A[-1]
-    pub(crate) a1: f32,
-    /// V[-1]
-    pub(crate) v1: f32,
-    /// s[-1]
-    s1: f32,
-    /// A[-2] - M T V[-2]
-    e2: f32,
+    /// φ since the block's first sample.
+    phi: f32,
+    /// ψ since the block's first sample.
+    psi: f32,
+    /// s\[0\] from the end of a block to the begin of the next one; A\[-1\] - s\[-1\] - (A\[-2\] - M V\[-2\]) from then on.
+    pending: f32,
+    /// A\[-1\] - M V\[-1\] of the block before the one in progress.
+    past: f32,
+}
+
+/// The mean position of a completed block, and S̄/M².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlockMean {
+    /// Relative to the origin that was subtracted from the samples.
+    pub y: f32,
+    /// Mean input term of the identity, in units of the input.
+    pub s: f32,
 }
 
 impl BlockMeans {
-    /// The input's moments over the interval that ended at the present sample.
+    /// One sample: `y` relative to the origin, and the moments of the interval that ended with it. Cost: 6 operations.
     #[inline(always)]
-    pub fn input(&mut self, moments: InputMoments, design: &BlockDesign) {
-        self.response.append(moments, design.period);
+    pub fn sample(&mut self, y: f32, moments: InputMoments) {
+        self.phi += self.psi + moments.j2;
+        self.psi += moments.j1;
+        self.sum_phi += self.phi;
+        self.sum_y += y;
     }
 
-    /// Closes the block before and makes the present sample the first of a new one.
+    /// To be called after [`sample`](Self::sample) where that sample is the first of a block: closes the block before.
     #[inline(always)]
     pub fn begin(&mut self, design: &BlockDesign) {
-        self.e2 = self.a1 - design.duration * self.v1;
-        self.a1 = self.response.j2 + design.centre * self.response.j1 - self.sum_phi;
-        self.v1 = self.response.j1;
-        self.s1 = self.sum_phi;
-        self.response = InputMoments::ZERO;
+        let s = self.pending;
+        let a = self.phi + design.centre * self.psi - s;
+        self.pending = a - s - self.past;
+        self.past = a - design.length * self.psi;
+        self.phi = 0.0;
+        self.psi = 0.0;
         self.sum_phi = 0.0;
+    }
+
+    /// To be called after [`sample`](Self::sample) where that sample is the last of a block.
+    #[inline(always)]
+    pub fn complete(&mut self, design: &BlockDesign) -> BlockMean {
+        let s = self.sum_phi * design.per_length;
+        let mean = BlockMean { y: self.sum_y * design.per_length, s: (s + self.pending) * design.per_length2 };
+        self.pending = s;
         self.sum_y = 0.0;
+        mean
     }
 
-    /// Adds the present sample, relative to the origin.
+    /// [`sample`](Self::sample) and [`complete`](Self::complete) for blocks of one. Cost: 2 operations.
     #[inline(always)]
-    pub fn sample(&mut self, y: f32) {
-        self.sum_y += y;
-        self.sum_phi += self.response.j2;
+    pub fn single(&mut self, y: f32, moments: InputMoments) -> BlockMean {
+        let past = moments.j2 - moments.j1;
+        let s = moments.j2 - self.past;
+        self.past = past;
+        BlockMean { y, s }
     }
 
-    /// Completes the block with its last sample: the mean position and S̄.
-    #[inline(always)]
-    pub fn complete(&mut self, design: &BlockDesign) -> (f32, f32) {
-        self.sum_y *= design.per_length;
-        self.sum_phi *= design.per_length;
-        (self.sum_y, self.sum_phi - self.s1 + (self.a1 - self.e2))
+    /// After a completed block: what the free state needs of the past.
+    pub(crate) fn past(&self, length: u32, moments: InputMoments) -> Past {
+        if length == 1 {
+            // P = j2, V = j1 of the interval that ended now.
+            Past { s: 0.0, past: moments.j2 - moments.j1, phi: 0.0, psi: 0.0 }
+        } else {
+            Past { s: self.pending, past: self.past, phi: self.phi, psi: self.psi }
+        }
     }
+}
 
-    /// s[0] of a block just completed.
-    pub(crate) const fn mean_phi(&self) -> f32 {
-        self.sum_phi
-    }
+/// s\[0\], A\[-1\] - M V\[-1\], and the response from the block's first sample to its last.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Past {
+    pub s: f32,
+    pub past: f32,
+    pub phi: f32,
+    pub psi: f32,
 }

@@ -32,8 +32,6 @@ pub struct IdentifierDesign {
     pub(crate) c: f32,
     /// The factor by which both sides are larger than in physical units.
     pub(crate) scale: f32,
-    /// scale/T²
-    pub(crate) per_period2: f32,
     rho: f32,
     b1: f32,
     b2_start: f32,
@@ -43,7 +41,7 @@ pub struct IdentifierDesign {
 }
 
 impl IdentifierDesign {
-    /// Constants for `tuning` at `period` [s].
+    /// Constants for `tuning` at `period`, in s.
     ///
     /// # Errors
     /// Names `lambda`, `q` or `period` where λT or qT is not within 1e-6..=1 or the period not within 1e-6..=1e3 s.
@@ -68,12 +66,11 @@ impl IdentifierDesign {
     }
 
     pub(crate) fn at_scale(decay: &Decay, scale: f64) -> Self {
-        let [per_period2, b1, b2_start, b3_start, b3_mixed] = constants(decay).map(|x| (scale * x) as f32);
+        let [b1, b2_start, b3_start, b3_mixed] = constants(decay).map(|x| (scale * x) as f32);
         Self {
             window: WindowDesign::new(decay),
             c: decay.c as f32,
             scale: scale as f32,
-            per_period2,
             rho: decay.rho as f32,
             b1,
             b2_start,
@@ -89,14 +86,12 @@ impl IdentifierDesign {
     }
 }
 
-/// 1/T², and the constants of b1, of the two parts of b2 and b3 that fade with the window; in physical units.
-fn constants(decay: &Decay) -> [f64; 5] {
+/// The constants of b1, and of the parts of b2 and b3 that fade with the window; in physical units.
+fn constants(decay: &Decay) -> [f64; 4] {
     let Decay { period, c, p, alpha, rho } = *decay;
-    let per_period2 = 1.0 / (period * period);
-    let base = per_period2 / (p * p);
+    let base = 1.0 / (period * p * (period * p));
     let one_minus_rho2 = alpha * (1.0 + rho);
     [
-        per_period2,
         base * c * c,
         -2.0 * base * c * one_minus_rho2,
         base * alpha * alpha * (1.0 + rho) / rho,
@@ -118,9 +113,9 @@ pub struct Coefficients {
     pub(crate) b2: f32,
     /// Weight of y in the first stage; w̄3 of (41).
     pub(crate) b3: f32,
-    /// g[n-1], the weight of S in the input cascade.
+    /// g\[n-1\], the weight of S in the input cascade.
     pub(crate) g: f32,
-    /// c p g[n]/(T²p²), the weight of y[n] - y[n-1] in the identity filtered once ([`super::FreeState`]).
+    /// c p g\[n\]/(T²p²), the weight of y\[n\] - y\[n-1\] in the identity filtered once ([`super::FreeState`]).
     pub(crate) slope: f32,
 }
 

@@ -23,8 +23,9 @@ mod coefficients;
 mod free_state;
 mod unit;
 
-pub use block::{BlockDesign, BlockMeans};
+pub use block::{BlockDesign, BlockMean, BlockMeans};
 pub use cascade::Cascade;
 pub use coefficients::{Coefficients, IdentifierDesign};
 pub use free_state::FreeState;
+pub(crate) use free_state::{Completed, Hypothesis};
 pub use unit::UnitChain;

@@ -1,35 +1,34 @@
 //! One axis of the observer, in innovation form.
 //!
-//! r[n] = y[n] - ŷ⁻[n] is kept instead of ŷ: with m1 = 1 - l1,
+//! r\[n\] = y\[n\] - ŷ⁻\[n\] is kept instead of ŷ, and w = T v̂ instead of v̂. With m1 = 1 - l1,
 //!
-//! r ← (y[n] - y[n-1]) - (T v̂ + k J2 + c T²/2) + m1[n-1] r,    v̂ ← v̂ + k J1 + c T + l2 r,    ŷ = y[n] - m1[n] r.
+//! r ← (y\[n\] - y\[n-1\]) - (w + k T² j2 + c T²/2) + m1\[n-1\] r,    w ← w + k T² j1 + c T² + T l2 r,    ŷ = y\[n\] - m1\[n\] r.
 //!
-//! y[n] - y[n-1] is exact in f32, r is small, and v̂ is a compensated sum; the textbook form ŷ ← ŷ + l1 r loses small
-//! corrections in a large ŷ.
+//! y\[n\] - y\[n-1\] is exact in f32, r is small, and w is an accumulator; the textbook form ŷ ← ŷ + l1 r loses small
+//! corrections in a large ŷ. A missed measurement is replaced by its prediction: r is then zero but for rounding, and
+//! nothing is corrected.
 
 use super::gains::{Gains, ObserverDesign};
-use crate::compensated::CompensatedSum;
+use crate::accumulator::Accumulator;
 use crate::moments::InputMoments;
 
-/// Adding and subtracting this quantises the innovation to 1e-22 of its unit, so that it ends at zero and not in the
-/// subnormal numbers when nothing moves.
-const QUANTISE: f32 = 1e-15;
+/// Innovations below this are none, m or rad: they end at zero instead of decaying through the subnormal numbers.
+const NO_INNOVATION: f32 = 1e-20;
 
-/// What the axis is taken to obey: `y'' = k f + drift`.
+/// What the axis is taken to obey, `y'' = k f + c`, over one period: k T² and c T².
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Model {
-    /// k of (15).
-    pub k: f32,
-    /// The known drift c [m/s² or rad/s²].
-    pub drift: f32,
+    pub(crate) k_t2: f32,
+    pub(crate) c_t2: f32,
 }
 
-/// What an interval does to the state beyond `T v`: the known part of the prediction.
-#[derive(Clone, Copy, Debug)]
-struct Motion {
-    position: f32,
-    velocity: f32,
+impl Model {
+    /// The parameter `k` of (15) and the known drift `c`, in m/s² or rad/s², for an observer of this design.
+    pub fn new(k: f32, c: f32, design: &ObserverDesign) -> Self {
+        let t2 = design.period * design.period;
+        Self { k_t2: k * t2, c_t2: c * t2 }
+    }
 }
 
 /// Position and velocity of one axis. The position is exact to the rounding of the measurement.
@@ -37,74 +36,49 @@ struct Motion {
 pub struct Observer {
     /// The last measurement, or what was predicted in its place.
     y: f32,
-    /// The innovation at the last sample; as good as zero where nothing was measured.
+    /// The innovation at the last sample.
     r: f32,
-    v: CompensatedSum,
+    /// T v̂.
+    w: Accumulator,
 }
 
 impl Observer {
     /// Takes the first measurement: ŷ = y, v̂ = 0, which the dead-beat second one replaces.
     pub fn start(&mut self, y: f32) {
-        *self = Self { y, r: 0.0, v: CompensatedSum::ZERO };
+        *self = Self { y, r: 0.0, w: Accumulator::ZERO };
     }
 
-    /// Puts the state at velocity `velocity` and position `y - residual`, `y` being the last measurement and `gains` those
-    /// of its sample.
-    pub fn seed(&mut self, y: f32, residual: f32, velocity: f32, gains: &Gains) {
-        self.y = y;
+    /// Puts the state at T v̂ = `t_velocity` and ŷ = y - `residual`, y being the last measurement and `gains` those of its
+    /// sample.
+    pub fn seed(&mut self, residual: f32, t_velocity: f32, gains: &Gains) {
         self.r = if gains.m1 > 0.0 { residual / gains.m1 } else { 0.0 };
-        self.v = CompensatedSum::new(velocity);
+        self.w = Accumulator::new(t_velocity);
     }
 
     /// Predicts over one period with the input `moments` and corrects with the measurement `y`.
     ///
-    /// `before` are the gains of the sample before, `now` those of this one.
-    /// Cost: 20 operations.
+    /// `before` are the gains of the sample before, `now` those of this one. Cost: 14 operations. Every 32 samples or
+    /// sooner [`fold`](Self::fold) is due.
     #[inline(always)]
-    pub fn correct(
-        &mut self,
-        y: f32,
-        moments: InputMoments,
-        model: &Model,
-        before: &Gains,
-        now: &Gains,
-        design: &ObserverDesign,
-    ) {
-        let motion = self.motion(moments, model, design);
-        let r = (y - self.y) - motion.position + before.m1 * self.r;
-        self.r = (r + QUANTISE) - QUANTISE;
-        self.v.add(motion.velocity + now.l2 * self.r);
+    pub fn correct(&mut self, y: f32, moments: InputMoments, model: &Model, before: &Gains, now: &Gains) {
+        let step = self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2);
+        self.r = (y - self.y) - step + before.m1 * self.r;
+        self.w.add(model.k_t2 * moments.j1 + model.c_t2 + now.t_l2 * self.r);
         self.y = y;
     }
 
-    /// Predicts over one period; nothing was measured. Returns the predicted position.
-    ///
-    /// The position is large and its change small: what rounding takes from the sum is kept in r, so that a run of missed
-    /// measurements adds no noise of its own.
+    /// ŷ⁻, the measurement to be expected after one period: what takes the place of one that is missed.
     #[inline(always)]
-    pub fn predict(
-        &mut self,
-        moments: InputMoments,
-        model: &Model,
-        before: &Gains,
-        now: &Gains,
-        design: &ObserverDesign,
-    ) -> f32 {
-        let motion = self.motion(moments, model, design);
-        let step = motion.position - before.m1 * self.r;
-        let y = self.y + step;
-        let lost = step - (y - self.y);
-        self.r = if now.m1 > 0.0 { -lost / now.m1 } else { 0.0 };
-        self.y = y;
-        self.v.add(motion.velocity);
-        self.y
+    pub fn predict(&self, moments: InputMoments, model: &Model, before: &Gains) -> f32 {
+        self.y + (self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2) - before.m1 * self.r)
     }
 
+    /// Moves collected steps into totals, and ends an innovation that has died away.
     #[inline(always)]
-    fn motion(&self, moments: InputMoments, model: &Model, design: &ObserverDesign) -> Motion {
-        Motion {
-            position: design.period * self.v.value() + model.k * moments.j2 + model.drift * design.half_period2,
-            velocity: model.k * moments.j1 + model.drift * design.period,
+    pub fn fold(&mut self) {
+        self.w.fold();
+        if self.r.abs() < NO_INNOVATION {
+            self.r = 0.0;
         }
     }
 
@@ -114,20 +88,27 @@ impl Observer {
         self.y + (ahead - gains.m1 * self.r)
     }
 
-    /// The last measurement, or what was predicted in its place.
-    pub(crate) const fn measurement(&self) -> f32 {
-        self.y
+    /// T v̂ at the last sample.
+    #[inline(always)]
+    pub const fn t_velocity(&self) -> f32 {
+        self.w.value()
     }
 
     /// v̂ at the last sample.
     #[inline(always)]
-    pub const fn velocity(&self) -> f32 {
-        self.v.value()
+    pub const fn velocity(&self, design: &ObserverDesign) -> f32 {
+        self.w.value() * design.per_period
     }
 
-    /// The innovation y - ŷ⁻ at the last sample; below an ulp of y where nothing was measured.
+    /// The innovation y - ŷ⁻ at the last sample.
     #[inline(always)]
     pub const fn innovation(&self) -> f32 {
         self.r
+    }
+
+    /// The last measurement, or what was predicted in its place.
+    #[inline(always)]
+    pub const fn measurement(&self) -> f32 {
+        self.y
     }
 }

@@ -1,12 +1,12 @@
 //! The observer's gains at sample n.
 //!
-//! l1 = 1 - p² g[n-1]/g[n+1],   T l2 = (c + p a)² + p² (1-a) e [α²(1+ρ)/ρ]/G,   a = [(1-ρ²)/ρ] e h₊₊/G,   G = g[n+1].
+//! l1 = 1 - p² g\[n-1\]/g\[n+1\],   T l2 = (c + p a)² + p² (1-a) e \[α²(1+ρ)/ρ\]/G,   a = \[(1-ρ²)/ρ\] e h₊₊/G,   G = g\[n+1\].
 //!
 //! n = 1 is dead-beat (l1 = 1, T l2 = 1): whatever was assumed before is gone. n → ∞: l1 = 1 - p², T l2 = (1-p)². No 1/h²
 //! as in (57) and (59), so there is no singularity to stay away from and no ε.
 
 use crate::error::ConfigError;
-use crate::tuning::{Tuning, checked_period};
+use crate::tuning::{Decay, Tuning, checked_period};
 use crate::window::{Window, WindowDesign};
 
 /// Constants of an observer: a tuning at the measurement period.
@@ -16,9 +16,8 @@ pub struct ObserverDesign {
     pub(crate) window: WindowDesign,
     /// T
     pub(crate) period: f32,
-    /// T²/2
-    pub(crate) half_period2: f32,
-    per_period: f32,
+    /// 1/T
+    pub(crate) per_period: f32,
     c: f32,
     p: f32,
     p2: f32,
@@ -27,7 +26,7 @@ pub struct ObserverDesign {
 }
 
 impl ObserverDesign {
-    /// Constants for `tuning` at the measurement `period` [s].
+    /// Constants for `tuning` at the measurement `period`, in s.
     ///
     /// # Errors
     /// Names `lambda`, `q` or `period`; ranges as for the identifier.
@@ -41,18 +40,20 @@ impl ObserverDesign {
         lambda: &'static str,
         q: &'static str,
     ) -> Result<Self, ConfigError> {
-        let d = tuning.decay(checked_period("period", period)?, lambda, q)?;
-        Ok(Self {
-            window: WindowDesign::new(&d),
-            period: period as f32,
-            half_period2: (period * period / 2.0) as f32,
-            per_period: (1.0 / period) as f32,
+        Ok(Self::from_decay(&tuning.decay(checked_period("period", period)?, lambda, q)?))
+    }
+
+    pub(crate) fn from_decay(d: &Decay) -> Self {
+        Self {
+            window: WindowDesign::new(d),
+            period: d.period as f32,
+            per_period: (1.0 / d.period) as f32,
             c: d.c as f32,
             p: d.p as f32,
             p2: (d.p * d.p) as f32,
             a_factor: (d.alpha * (1.0 + d.rho) / d.rho) as f32,
             l2_factor: (d.p * d.p * d.alpha * d.alpha * (1.0 + d.rho) / d.rho) as f32,
-        })
+        }
     }
 }
 
@@ -63,21 +64,29 @@ pub struct Gains {
     pub(crate) m1: f32,
     /// T l2.
     pub(crate) t_l2: f32,
-    /// l2 [1/s].
-    pub(crate) l2: f32,
 }
 
 impl Gains {
     /// At n = 0 the first measurement is taken as it is: l1 = 1, l2 = 0.
-    pub const FIRST: Self = Self { m1: 0.0, t_l2: 0.0, l2: 0.0 };
+    pub const FIRST: Self = Self { m1: 0.0, t_l2: 0.0 };
 
-    /// The gains at the window's sample, n >= 1. Cost: 21 operations, one of them a division. Every term is positive.
+    /// The gains at the window's sample, n >= 1. Cost: 20 operations, one of them a division. Every term is positive.
+    #[inline(always)]
     pub fn at(window: &Window, design: &ObserverDesign) -> Self {
         let w = window.neighbours(&design.window);
         let per_g = 1.0 / w.g_after;
         let a = design.a_factor * w.e * w.h_after * per_g;
         let s = design.c + design.p * a;
-        let t_l2 = s * s + design.l2_factor * (1.0 - a) * w.e * per_g;
-        Self { m1: design.p2 * w.g_before * per_g, t_l2, l2: t_l2 * design.per_period }
+        Self { m1: design.p2 * w.g_before * per_g, t_l2: s * s + design.l2_factor * (1.0 - a) * w.e * per_g }
+    }
+
+    /// l1, the share of the innovation that the position estimate follows.
+    pub const fn l1(&self) -> f32 {
+        1.0 - self.m1
+    }
+
+    /// T l2, what the velocity estimate takes of the innovation over a period.
+    pub const fn t_l2(&self) -> f32 {
+        self.t_l2
     }
 }

@@ -5,6 +5,8 @@
 //! var ŷ = (1-p)(1+4p+5p²)/(1+p)³ σ²,   var v̂ = 2(1-p)³/(1+p)³ σ²/T².
 
 use super::gains::{Gains, ObserverDesign};
+use crate::tuning::{Decay, Tuning};
+use crate::window::Window;
 
 /// Covariance of (ŷ, T v̂) for measurement noise of variance one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +22,6 @@ impl NoiseGain {
     pub const FIRST: Self = Self { yy: 1.0, yv: 0.0, vv: 0.0 };
 
     /// Over one period, corrected with the gains of the new sample. Cost: 17 operations.
-    #[inline(always)]
     pub fn correct(&mut self, gains: &Gains) {
         self.predict();
         let (m, l1, l2) = (gains.m1, 1.0 - gains.m1, gains.t_l2);
@@ -31,7 +32,6 @@ impl NoiseGain {
     }
 
     /// Over one period without a measurement.
-    #[inline(always)]
     pub fn predict(&mut self) {
         self.yy += 2.0 * self.yv + self.vv;
         self.yv += self.vv;
@@ -42,8 +42,37 @@ impl NoiseGain {
         self.yy
     }
 
-    /// Variance of v̂ over the variance of the measurement noise [1/s²].
+    /// Variance of v̂ over the variance of the measurement noise, in 1/s².
     pub fn velocity(&self, design: &ObserverDesign) -> f32 {
-        self.vv / (design.period * design.period)
+        self.vv * (design.per_period * design.per_period)
+    }
+
+    /// Steps of [`at_sample`](Self::at_sample).
+    const STEPS: u32 = 96;
+
+    /// At sample `n` of an observer with `tuning` at `period` (s), every sample measured.
+    ///
+    /// Exact up to n = 96. Beyond, the last 8/λ are gone through in 96 steps with means of the samples in place of the
+    /// samples, which is good to 2 %. Uses an exponential: for reports, not for the tick.
+    pub fn at_sample(n: u32, tuning: Tuning, period: f64) -> Self {
+        let samples = if n <= Self::STEPS {
+            1.0
+        } else {
+            libm::fmin(f64::from(n) / f64::from(Self::STEPS), 8.0 / (tuning.lambda * period * f64::from(Self::STEPS)))
+        };
+        let step = libm::fmax(samples, 1.0) * period;
+        let (c, alpha) = (-libm::expm1(-tuning.lambda * step), -libm::expm1(-tuning.q * step));
+        let design = ObserverDesign::from_decay(&Decay { period: step, c, p: 1.0 - c, alpha, rho: 1.0 - alpha });
+        let steps = n.min(Self::STEPS);
+        let begin = f64::from(n) * period - f64::from(steps) * step;
+        // Begins at the first sample, or so long ago that it does not matter where.
+        let mut window = if begin <= step { Window::START } else { Window::after(tuning.q * begin) };
+        let mut gain = Self::FIRST;
+        for _ in 0..steps {
+            window.step(&design.window);
+            gain.correct(&Gains::at(&window, &design));
+        }
+        let per_mean = (period / step) as f32;
+        Self { yy: gain.yy * per_mean, yv: gain.yv * per_mean * per_mean, vv: gain.vv * per_mean * per_mean * per_mean }
     }
 }

@@ -15,6 +15,7 @@ mod ratio;
 pub(crate) use covariance::CovarianceDesign;
 pub use covariance::{NoiseCross, NoiseShape};
 pub use noise_level::NoiseLevel;
+pub(crate) use noise_level::innovation_step_gain;
 pub(crate) use parameter::{CheckedRule, ParameterState};
 pub use parameter::{Parameter, ParameterRule, ParameterStatus};
 pub(crate) use ratio::weight;

@@ -1,7 +1,8 @@
 //! The variance σ² of the measurement noise of one axis, learned from the data in two bands.
 //!
-//! * From sample to sample: y[n] - 2 y[n-1] + y[n-2] - k S[n] - c T² is a second difference of the noise, of variance 6 σ².
-//!   Many independent values in a short time, hardly touched by an error of k.
+//! * From sample to sample: the observer's innovations. Two that follow each other differ by the noise filtered by
+//!   (1 - z⁻¹)³/(1 - p z⁻¹)², of a known variance near 2 σ². Many independent values in a short time; what a wrong k or an
+//!   unknown disturbance adds to both cancels.
 //! * In the band of the identifier: the residual ẑ2 - k ẑ0 has the variance σ² P₁₁. Few independent values, but it sees
 //!   what the model lacks (drag, wind, a swinging load), which the first does not.
 //!
@@ -27,7 +28,7 @@ impl NoiseLevel {
         Self { fine: variance, slow: variance, values: Self::ENOUGH }
     }
 
-    /// Adds one value of each: `fine` from the second difference, `slow` from the residual.
+    /// Adds one value of each: `fine` from the innovations, `slow` from the residual.
     pub(crate) fn add(&mut self, fine: f32, slow: f32) {
         if self.values < Self::MEMORY {
             self.values += 1;
@@ -37,7 +38,7 @@ impl NoiseLevel {
         self.slow += gain * (slow - self.slow);
     }
 
-    /// σ² [position²] of the means that the identifier works on.
+    /// σ², in the square of the position's unit, of the means that the identifier works on.
     pub fn variance(&self) -> f32 {
         if self.slow > self.fine { self.slow } else { self.fine }
     }
@@ -56,4 +57,19 @@ impl NoiseLevel {
     pub const fn measurement_variance(&self) -> f32 {
         self.fine
     }
+}
+
+/// Variance of the difference of two innovations that follow each other over that of the noise, for an observer with
+/// p = e^(-λT): the sum of squares of the impulse response of (1 - z⁻¹)³/(1 - p z⁻¹)². After 64 terms nothing is left of it.
+pub(crate) fn innovation_step_gain(p: f64) -> f64 {
+    let numerator = [1.0, -3.0, 3.0, -1.0];
+    let (mut before, mut last, mut sum) = (0.0, 0.0, 0.0);
+    for n in 0..64 {
+        let input = numerator.get(n).copied().unwrap_or(0.0);
+        let response = input + 2.0 * p * last - p * p * before;
+        before = last;
+        last = response;
+        sum += response * response;
+    }
+    sum
 }

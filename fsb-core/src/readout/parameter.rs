@@ -1,7 +1,6 @@
 //! k with its variance, and the rule by which it may be used.
 
 use super::ratio::Ratio;
-use crate::compensated::CompensatedSum;
 use crate::error::{ConfigError, finite, positive};
 use core::fmt;
 
@@ -9,7 +8,7 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Parameter {
-    /// k̂ [1/kg, 1/(kg m²), or the input's unit in place of N or N m].
+    /// k̂, in 1/kg or 1/(kg m²), or with the input's unit in place of N or N m.
     pub value: f32,
     /// Variance of k̂.
     pub variance: f32,
@@ -112,8 +111,6 @@ pub(crate) struct CheckedRule {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ParameterState {
     pub ratio: Ratio,
-    /// var a of every axis, weighted with its σ²
-    noise: CompensatedSum,
     value: f32,
     variance: f32,
     pub status: ParameterStatus,
@@ -125,7 +122,6 @@ impl ParameterState {
     /// Nothing known: no quotient, and a variance above any limit.
     pub const START: Self = Self {
         ratio: Ratio::EMPTY,
-        noise: CompensatedSum::ZERO,
         value: 0.0,
         variance: f32::MAX,
         status: ParameterStatus::Settling,
@@ -151,16 +147,25 @@ impl ParameterState {
         }
     }
 
-    /// Takes up what a coarse step of all its axes added to var a (weighted with σ²); `fading` is 1 - μ².
-    pub fn add_noise(&mut self, added: f32, fading: f32) {
-        self.noise.add(added - fading * self.noise.value());
+    /// The value, where it is valid.
+    #[inline(always)]
+    pub fn valid_value(&self) -> Option<f32> {
+        match self.status {
+            ParameterStatus::Valid => Some(self.value),
+            _ => None,
+        }
     }
 
-    /// The variance from the sums as they are. `scale2` is the square of the identifier's scale.
-    pub fn read_variance(&mut self, scale2: f32) {
+    /// The variance of the quotient from that of its numerator, where that is known. `scale2` is the square of the
+    /// identifier's scale.
+    pub fn read_variance(&mut self, numerator: Option<f32>, scale2: f32) {
         let information = self.ratio.denominator();
-        if information > 0.0 {
-            self.variance = (self.noise.value() / information) * (scale2 / information);
+        if let Some(variance) = numerator
+            && information > 0.0
+        {
+            let variance = (variance / information) * (scale2 / information);
+            // Rounding can take a sum of next to nothing below zero.
+            self.variance = if variance >= 0.0 { variance } else { f32::MAX };
         }
     }
 

@@ -1,0 +1,98 @@
+//! What an estimator hands out.
+
+use super::Estimator;
+use super::axis::Source;
+use super::design::EstimatorDesign;
+use super::output::{AxisDiagnostics, AxisState, Counters, StateStatus};
+use crate::observer::NoiseGain;
+use crate::readout::{Parameter, ParameterStatus};
+
+impl<const N: usize, const P: usize> Estimator<N, P> {
+    /// The parameters that are valid.
+    pub fn parameters(&self) -> [Option<Parameter>; P] {
+        self.parameters.each_ref().map(|p| p.valid())
+    }
+
+    /// Why a parameter is valid or not.
+    pub fn parameter_status(&self) -> [ParameterStatus; P] {
+        self.parameters.each_ref().map(|p| p.status)
+    }
+
+    /// The states at the present control instant that may be used: predicted from the last measurement instant with what
+    /// was applied since.
+    pub fn states(&self) -> [Option<AxisState>; N] {
+        // Time since the last measurement instant over T.
+        let t = self.substep as f32 * self.design.substep_share;
+        self.axes.each_ref().map(|axis| {
+            let usable = matches!(axis.source, Source::Identified | Source::Nominal);
+            if !usable || !axis.measured || self.observer.count < axis.valid_from {
+                return None;
+            }
+            let w = axis.observer.t_velocity();
+            let (ahead, step) = if self.substep == 0 {
+                (0.0, 0.0)
+            } else {
+                let model = &axis.model;
+                (
+                    t * w + model.k_t2 * axis.moments.j2 + model.c_t2 * (0.5 * t * t),
+                    model.k_t2 * axis.moments.j1 + model.c_t2 * t,
+                )
+            };
+            Some(AxisState {
+                position: axis.observer.position(ahead, &self.observer.gains),
+                velocity: (w + step) * self.design.observer.per_period,
+            })
+        })
+    }
+
+    /// Why a state may be used or not.
+    pub fn state_status(&self) -> [StateStatus; N] {
+        self.axes.each_ref().map(|axis| match axis.source {
+            _ if !axis.measured => StateStatus::NotMeasured,
+            _ if self.observer.count < axis.valid_from => StateStatus::Settling,
+            Source::Identified => StateStatus::Identified,
+            Source::Nominal => StateStatus::Nominal,
+            Source::Provisional | Source::Nothing => StateStatus::NoParameter,
+        })
+    }
+
+    /// Standard deviations of the states at the last measurement instant that measurement noise causes, where the noise
+    /// level is known. The parameter's own uncertainty is not in them. Good to a few per cent; for reports, not for the tick.
+    pub fn state_sd(&self) -> [Option<AxisState>; N] {
+        let (tuning, period) = (self.design.observer_tuning, self.design.measurement_period);
+        let gain = NoiseGain::at_sample(self.observer.count, tuning, period);
+        self.axes.each_ref().map(|axis| {
+            // Means over M samples have an M-th of the variance.
+            let variance = axis.noise.measurement_variance() * self.design.block_length as f32;
+            (axis.noise.is_known() && axis.measured).then(|| AxisState {
+                position: libm::sqrtf(variance * gain.position()),
+                velocity: libm::sqrtf(variance * gain.velocity(&self.design.observer)),
+            })
+        })
+    }
+
+    /// The identifier's inner signals: for logs and tests, not for control.
+    pub fn diagnostics(&self) -> [AxisDiagnostics; N] {
+        core::array::from_fn(|index| {
+            let axis = self.axes.get(index).copied().unwrap_or_default();
+            let drift = self.design.drift.get(index).copied().unwrap_or(0.0);
+            let ratio = self.parameters.get(EstimatorDesign::<N, P>::parameter_of(index)).map(|p| p.ratio);
+            let zu = self.identifier.unit.zu();
+            let scale = self.design.identifier.scale;
+            AxisDiagnostics {
+                z2: (axis.cascade.z2() - drift * zu) / scale,
+                z0: axis.cascade.z0() / scale,
+                zu: zu / scale,
+                innovation: axis.observer.innovation(),
+                noise_variance: axis.noise.variances(),
+                numerator: ratio.map_or(0.0, |r| r.numerator()),
+                denominator: ratio.map_or(0.0, |r| r.denominator()),
+            }
+        })
+    }
+
+    /// What has been missed or rejected.
+    pub const fn counters(&self) -> Counters {
+        self.counters
+    }
+}
