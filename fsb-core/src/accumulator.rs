@@ -28,6 +28,12 @@ impl Accumulator {
         self.total + self.recent
     }
 
+    /// The sum without what was added since the last [`fold`](Self::fold); right after it, the sum.
+    #[inline(always)]
+    pub const fn total(&self) -> f32 {
+        self.total
+    }
+
     /// Adds `d`.
     #[inline(always)]
     pub const fn add(&mut self, d: f32) {

@@ -7,4 +7,6 @@ pub mod progress;
 pub mod replay;
 pub mod report;
 pub mod section_v;
+pub mod soak;
+pub mod statistics;
 pub mod twin;

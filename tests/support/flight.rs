@@ -11,7 +11,7 @@ use rand_pcg::Pcg64;
 /// What the core said at one control tick, after the measurement if there was one.
 #[derive(Clone, Copy, Debug)]
 pub struct Tick {
-    /// Time [s].
+    /// Time, in s.
     pub t: f64,
     /// Whether this was a measurement instant.
     pub measured: bool,

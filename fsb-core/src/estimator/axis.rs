@@ -1,12 +1,12 @@
-//! The state of one axis, and what it does now and then. What it does at every measurement is in `step`.
+//! The state of one axis, and what it does at its turns.
 
-use super::design::EstimatorDesign;
+use super::design::Common;
 use super::shared::{IdentifierClock, ObserverClock};
 use crate::accumulator::Accumulator;
 use crate::identifier::{BlockMean, BlockMeans, Cascade, Completed, FreeState, Hypothesis};
 use crate::moments::InputMoments;
 use crate::observer::{Model, Observer};
-use crate::readout::{NoiseCross, NoiseLevel, ParameterState, weight};
+use crate::readout::{CheckedRule, NoiseCross, NoiseLevel, ParameterState, weight};
 
 /// What predicts this axis at present.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,24 +22,44 @@ pub(super) enum Source {
     Identified,
 }
 
+/// What an axis needs of the configuration for itself.
+#[derive(Clone, Copy)]
+pub(super) struct Own<'a> {
+    /// c
+    pub drift: f32,
+    /// c T²
+    pub drift_t2: f32,
+    pub nominal: Option<f32>,
+    pub rule: &'a CheckedRule,
+    /// Blocks after the shared coarse step.
+    pub coarse_slot: u32,
+}
+
+/// The two clocks.
+#[derive(Clone, Copy)]
+pub(super) struct Clocks<'a> {
+    pub identifier: &'a IdentifierClock,
+    pub observer: &'a ObserverClock,
+}
+
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Axis {
     pub observer: Observer,
     pub model: Model,
     /// Input over the last measurement interval, or over the present one as far as it is known.
     pub moments: InputMoments,
-    /// The innovation before the last.
-    innovation_before: f32,
+    pub block: BlockMeans,
     /// The first position, subtracted from all: the plant is translation invariant, rounding is not.
     origin: f32,
-    pub block: BlockMeans,
+    /// The innovation before the last.
+    innovation_before: f32,
     pub cascade: Cascade,
     cross: NoiseCross,
     /// var a for unit noise.
     noise_sum: Accumulator,
     pub noise: NoiseLevel,
-    /// The measurement count at which the state may be handed out.
-    pub valid_from: u32,
+    /// The measurement count from which on the state may be handed out, if there is something to predict it with.
+    pub settled_at: u32,
     /// Measurements replaced in the block in progress.
     pub missed: u16,
     pub source: Source,
@@ -59,9 +79,9 @@ impl Axis {
 
     /// The observer's step with a measurement, or with what stands in for it.
     #[inline(always)]
-    pub fn observe(&mut self, y: f32, clock: &ObserverClock) {
+    pub fn observe(&mut self, y: f32, m1: f32, t_l2: f32) {
         self.innovation_before = self.observer.innovation();
-        self.observer.correct(y, self.moments, &self.model, &clock.before, &clock.gains);
+        self.observer.correct(y, self.moments, &self.model, m1, t_l2);
     }
 
     /// The identifier's sample inside a block.
@@ -71,10 +91,9 @@ impl Axis {
     }
 
     /// The sample just taken is the first of a block.
-    #[inline(always)]
-    pub fn begin_block<const N: usize, const P: usize>(&mut self, y: f32, design: &EstimatorDesign<N, P>) {
+    pub fn begin_block(&mut self, y: f32, common: &Common) {
         if self.begun {
-            self.block.begin(&design.block);
+            self.block.begin(&common.block);
         } else {
             self.begin_first(y);
         }
@@ -96,25 +115,33 @@ impl Axis {
         self.block.single(y - self.origin, self.moments)
     }
 
-    /// Takes a completed block through the cascade into the parameter's sums.
+    /// Takes the mean of a completed block through the cascade into the parameter's sums. With `fold`, sums are folded on
+    /// the way.
     #[inline(always)]
-    pub fn identify<const N: usize, const P: usize>(
+    pub fn identify(
         &mut self,
-        axis: usize,
         mean: BlockMean,
+        fold: bool,
+        own: &Own<'_>,
         clock: &IdentifierClock,
         parameter: &mut ParameterState,
-        design: &EstimatorDesign<N, P>,
+        common: &Common,
     ) {
-        self.cascade.step(mean.y, mean.s, &design.identifier, &clock.at);
-        let drift = if design.any_drift { design.drift.get(axis).copied().unwrap_or(0.0) } else { 0.0 };
-        let z2 = self.cascade.z2() - drift * clock.unit.zu();
+        if fold {
+            self.cascade.step_folded(mean.y, mean.s, &common.identifier, &clock.at);
+        } else {
+            self.cascade.step(mean.y, mean.s, &common.identifier, &clock.at);
+        }
+        let mut z2 = self.cascade.z2();
+        if common.any_drift {
+            z2 -= own.drift * clock.unit.zu();
+        }
         let z0 = self.cascade.z0();
         // The window is zero in the first two blocks; a block of predictions alone says nothing that was not known.
-        if clock.blocks > 2 && u32::from(self.missed) < design.block_length {
-            parameter.ratio.add(design.readout, z2, z0, design.forgetting);
-            if clock.stride == design.coarse_slot(axis) {
-                self.coarse_step(z2, z0, clock, parameter, design);
+        if clock.blocks > 2 && u32::from(self.missed) < common.block_length {
+            parameter.ratio.add(common.readout, z2, z0, common.forgetting);
+            if clock.stride == own.coarse_slot {
+                self.coarse_step(z2, z0, clock, parameter, common);
             }
         }
         self.missed = 0;
@@ -122,15 +149,15 @@ impl Axis {
 
     /// Every D-th block: the noise level, and how noise reaches k̂.
     #[inline(never)]
-    fn coarse_step<const N: usize, const P: usize>(
+    fn coarse_step(
         &mut self,
         z2: f32,
         z0: f32,
         clock: &IdentifierClock,
         parameter: &mut ParameterState,
-        design: &EstimatorDesign<N, P>,
+        common: &Common,
     ) {
-        let covariance = &design.covariance;
+        let covariance = &common.covariance;
         // The covariance of the cascade is that of a filled one from its third step on.
         if let Some(k) = parameter.newest()
             && clock.blocks > 2 * covariance.steps
@@ -138,13 +165,14 @@ impl Axis {
             let step = self.observer.innovation() - self.innovation_before;
             let residual = z2 - k * z0;
             self.noise.add(
-                step * step * design.innovation_to_mean,
-                covariance.stride * (residual * residual) / (clock.shape.variance() * design.identifier.scale2()),
+                step * step * common.innovation_to_mean,
+                covariance.stride * (residual * residual) / (clock.shape.variance() * common.identifier.scale2()),
             );
         }
-        let (w, _) = weight(design.readout, z2, z0);
+        let (w, _) = weight(common.readout, z2, z0);
         let added = self.cross.step(covariance.stride * w, &clock.shape, covariance);
-        self.noise_sum.add_folded(added - design.noise_forgetting * self.noise_sum.value());
+        self.noise_sum.add_folded(added - common.noise_forgetting * self.noise_sum.value());
+        parameter.stale = true;
     }
 
     /// σ² var a, this axis's share of the variance of the numerator of k̂; `None` while the noise level is not known.
@@ -152,31 +180,27 @@ impl Axis {
         if self.noise.is_known() { Some(self.noise.variance() * per_stride * self.noise_sum.value()) } else { None }
     }
 
-    /// Moves collected steps into totals.
-    #[inline(always)]
-    pub fn fold(&mut self) {
-        self.observer.fold();
-        self.cascade.fold();
-    }
-
     /// Settles what predicts this axis, and puts the observer where the identifier's own states say it is when the
     /// parameter has become valid. Right after a completed block.
     #[inline(always)]
-    pub fn follow<const N: usize, const P: usize>(
-        &mut self,
-        axis: usize,
-        parameter: &ParameterState,
-        nominal: Option<f32>,
-        clocks: (&IdentifierClock, &ObserverClock),
-        design: &EstimatorDesign<N, P>,
-    ) {
-        let drift_t2 = design.drift_t2.get(axis).copied().unwrap_or(0.0);
-        let (k, source) = if let Some(known) = parameter.valid_value() {
-            if self.source != Source::Identified && !self.seed(axis, known, clocks, design) {
+    pub fn follow(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
+        if self.source == Source::Identified
+            && let Some(k) = parameter.valid_value()
+        {
+            self.model.k_t2 = k * common.period2;
+        } else {
+            self.change_source(parameter, own, clocks, common);
+        }
+    }
+
+    #[inline(never)]
+    pub fn change_source(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
+        let (k, source) = if let Some(k) = parameter.valid_value() {
+            if self.present && !self.seed(k, own, clocks, common) {
                 return;
             }
-            (known, Source::Identified)
-        } else if let Some(k) = nominal {
+            (k, Source::Identified)
+        } else if let Some(k) = own.nominal {
             (k, Source::Nominal)
         } else if let Some(k) = parameter.credible() {
             (k, Source::Provisional)
@@ -186,41 +210,25 @@ impl Axis {
             return;
         };
         self.source = source;
-        self.model = Model { k_t2: k * design.period2, c_t2: drift_t2 };
+        self.model = Model { k_t2: k * common.period2, c_t2: own.drift_t2 };
     }
 
-    #[inline(never)]
-    fn seed<const N: usize, const P: usize>(
-        &mut self,
-        axis: usize,
-        k: f32,
-        (clock, observer): (&IdentifierClock, &ObserverClock),
-        design: &EstimatorDesign<N, P>,
-    ) -> bool {
-        if !self.present {
-            // Nothing to seed from; the observer goes on with the new k and forgets by itself.
-            return true;
-        }
+    fn seed(&mut self, k: f32, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) -> bool {
         let block = Completed {
             cascade: &self.cascade,
-            unit: &clock.unit,
-            at: &clock.at,
+            unit: &clocks.identifier.unit,
+            at: &clocks.identifier.at,
             block: &self.block,
             moments: self.moments,
         };
-        let by = Hypothesis {
-            k,
-            c: design.drift.get(axis).copied().unwrap_or(0.0),
-            k_t2: k * design.period2,
-            c_t2: design.drift_t2.get(axis).copied().unwrap_or(0.0),
-        };
-        let free = FreeState::at_block_end(&block, &design.block, design.block_length, &by);
+        let by = Hypothesis { k, c: own.drift, k_t2: k * common.period2, c_t2: own.drift_t2 };
+        let free = FreeState::at_block_end(&block, &common.block, common.block_length, &by);
         let sound = free.position.is_finite() && free.t_velocity.is_finite();
         if sound {
             let residual = (self.observer.measurement() - self.origin) - free.position;
-            self.observer.seed(residual, free.t_velocity, &observer.gains);
+            self.observer.seed(residual, free.t_velocity, &clocks.observer.gains);
             // A late start is forgotten with it.
-            self.valid_from = self.valid_from.min(observer.count.max(design.state_settle));
+            self.settled_at = self.settled_at.min(clocks.observer.count.max(common.state_settle));
         }
         sound
     }
@@ -232,7 +240,7 @@ impl Axis {
             model: self.model,
             moments: self.moments,
             innovation_before: self.innovation_before,
-            valid_from: self.valid_from,
+            settled_at: self.settled_at,
             source: self.source,
             measured: self.measured,
             ..Self::start(noise)

@@ -1,6 +1,8 @@
 //! A configuration validated and turned into constants.
 
+use super::axis::Own;
 use super::config::EstimatorConfig;
+use super::schedule::Schedule;
 use crate::error::{ConfigError, finite, positive};
 use crate::identifier::{BlockDesign, IdentifierDesign};
 use crate::moments::Substep;
@@ -13,81 +15,54 @@ use crate::window::WindowDesign;
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EstimatorDesign<const N: usize, const P: usize> {
-    /// R
-    pub(super) substeps: u32,
-    pub(super) substep: Substep,
-    /// 1/R
-    pub(super) substep_share: f32,
-    /// M
-    pub(super) block_length: u32,
-    pub(super) schedule: Schedule,
-    pub(super) observer: ObserverDesign,
-    /// The observer's window over `schedule.gains_every` samples.
-    pub(super) observer_stride: WindowDesign,
-    pub(super) identifier: IdentifierDesign,
-    pub(super) block: BlockDesign,
-    pub(super) covariance: CovarianceDesign,
-    /// What turns the squared step of the innovation into the variance of a block's mean.
-    pub(super) innovation_to_mean: f32,
-    pub(super) readout: Readout,
-    pub(super) forgetting: f32,
-    /// 1 - μ² over a coarse step
-    pub(super) noise_forgetting: f32,
-    pub(super) noise: NoiseLevel,
+    pub(super) common: Common,
     /// c
     pub(super) drift: [f32; N],
     /// c T²
     pub(super) drift_t2: [f32; N],
-    pub(super) any_drift: bool,
-    /// T²
-    pub(super) period2: f32,
     pub(super) nominal: [Option<f32>; P],
     pub(super) rule: [CheckedRule; P],
-    /// ε in measurements
-    pub(super) parameter_settle: u32,
-    pub(super) state_settle: u32,
-    /// Measurements after which an observer that started late has forgotten its start
-    pub(super) late_settle: u32,
-    pub(super) position_limit: f32,
-    pub(super) input_limit: f32,
-    /// As configured, for reports.
-    pub(super) observer_tuning: Tuning,
-    pub(super) measurement_period: f64,
 }
 
-/// Which measurement does what, so that no tick carries everything.
+/// What does not depend on the number of axes.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Schedule {
-    /// Measurements by which this estimator's turns come later.
-    pub turn: u32,
-    /// Measurement within a block at which the identifier's weights for it are computed.
-    pub weights_at: u32,
-    /// The observer's gains are renewed every so many measurements, once they change slowly; any gains leave the estimate
-    /// exact, these are within a few per cent of the best ones.
-    pub gains_every: u32,
-    /// Measurements until the first of those.
-    pub gains_first: u32,
-    /// Blocks of one: each axis folds its sums and reads its parameter every so many measurements.
-    pub service_every: u32,
-}
-
-impl Schedule {
-    const UNHURRIED: f64 = 5e-3;
-
-    fn new(axes: u32, block: u32, turn: u32, period: f64) -> Self {
-        let gains_every = if (8..=16).contains(&block) { block } else { 8 };
-        // With blocks of ten and three axes a group completes blocks at 9, 0 and 1, computes its weights at 5, and a group
-        // with turn 3 at 2, 3, 4 and 8: 7 and 6 are left for the gains.
-        let slot = if turn == 0 { gains_every - 3 } else { gains_every - 4 };
-        Self {
-            turn,
-            weights_at: (axes + 2).min(block - 1),
-            gains_every,
-            gains_first: slot,
-            service_every: if period >= Self::UNHURRIED { 1 } else { 8 },
-        }
-    }
+pub(super) struct Common {
+    /// R
+    pub substeps: u32,
+    pub substep: Substep,
+    /// 1/R
+    pub substep_share: f32,
+    /// M
+    pub block_length: u32,
+    pub schedule: Schedule,
+    pub observer: ObserverDesign,
+    /// The observer's window over `schedule.gains_every` samples.
+    pub observer_stride: WindowDesign,
+    pub identifier: IdentifierDesign,
+    pub block: BlockDesign,
+    pub covariance: CovarianceDesign,
+    /// What turns the squared step of the innovation into the variance of a block's mean.
+    pub innovation_to_mean: f32,
+    pub readout: Readout,
+    /// 1 - μ over a block
+    pub forgetting: f32,
+    /// 1 - μ² over a coarse step
+    pub noise_forgetting: f32,
+    pub noise: NoiseLevel,
+    pub any_drift: bool,
+    /// T²
+    pub period2: f32,
+    /// ε in measurements
+    pub parameter_settle: u32,
+    pub state_settle: u32,
+    /// Measurements after which an observer that started late has forgotten its start
+    pub late_settle: u32,
+    pub position_limit: f32,
+    pub input_limit: f32,
+    /// As configured, for reports.
+    pub observer_tuning: Tuning,
+    pub measurement_period: f64,
 }
 
 impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
@@ -103,6 +78,55 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
     /// by the measurement period T, those of the identifier by M T; both products must be within 1e-6..=1.
     pub fn new(config: &EstimatorConfig<N, P>) -> Result<Self, ConfigError> {
         const { Self::SHAPE };
+        let common = Common::new(config)?;
+        let period2 = common.measurement_period * common.measurement_period;
+        let mut drift = [0.0; N];
+        let mut drift_t2 = [0.0; N];
+        for ((out, out_t2), &c) in drift.iter_mut().zip(drift_t2.iter_mut()).zip(&config.drift) {
+            if finite("drift", c)?.abs() > 1e6 {
+                return Err(ConfigError::OutOfRange("drift"));
+            }
+            *out = c as f32;
+            *out_t2 = (c * period2) as f32;
+        }
+        let mut nominal = [None; P];
+        for (out, k) in nominal.iter_mut().zip(config.nominal) {
+            if let Some(k) = k {
+                if !(1e-15..=1e15).contains(&positive("nominal", k)?) {
+                    return Err(ConfigError::OutOfRange("nominal"));
+                }
+                *out = Some(k as f32);
+            }
+        }
+        let mut rule = [CheckedRule::NEVER; P];
+        for (out, r) in rule.iter_mut().zip(&config.rule) {
+            *out = r.checked()?;
+        }
+        Ok(Self { common, drift, drift_t2, nominal, rule })
+    }
+
+    /// What is particular to an axis.
+    #[inline(always)]
+    pub(super) fn own(&self, axis: usize) -> Option<Own<'_>> {
+        let parameter = Self::parameter_of(axis);
+        Some(Own {
+            drift: *self.drift.get(axis)?,
+            drift_t2: *self.drift_t2.get(axis)?,
+            nominal: *self.nominal.get(parameter)?,
+            rule: self.rule.get(parameter)?,
+            coarse_slot: self.common.schedule.coarse_slot(axis),
+        })
+    }
+
+    /// The parameter that `axis` shares in.
+    #[inline(always)]
+    pub(super) const fn parameter_of(axis: usize) -> usize {
+        if P == 1 { 0 } else { axis }
+    }
+}
+
+impl Common {
+    fn new<const N: usize, const P: usize>(config: &EstimatorConfig<N, P>) -> Result<Self, ConfigError> {
         let control = checked_period("period", config.period)?;
         for (name, count) in [("substeps", config.substeps), ("block", config.block)] {
             if count == 0 {
@@ -120,24 +144,6 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
         let decay = config.identifier.decay(step, "identifier.lambda", "identifier.q")?;
         let forgetting = config.memory.forgetting(step)?;
         let covariance = CovarianceDesign::new(config.identifier.lambda, config.identifier.q, step, forgetting);
-        let mut drift = [0.0; N];
-        let mut drift_t2 = [0.0; N];
-        for ((out, out_t2), &c) in drift.iter_mut().zip(drift_t2.iter_mut()).zip(&config.drift) {
-            if finite("drift", c)?.abs() > 1e6 {
-                return Err(ConfigError::OutOfRange("drift"));
-            }
-            *out = c as f32;
-            *out_t2 = (c * period * period) as f32;
-        }
-        let mut nominal = [None; P];
-        for (out, k) in nominal.iter_mut().zip(config.nominal) {
-            if let Some(k) = k {
-                if !(1e-15..=1e15).contains(&positive("nominal", k)?) {
-                    return Err(ConfigError::OutOfRange("nominal"));
-                }
-                *out = Some(k as f32);
-            }
-        }
         let noise = match config.noise_sd {
             None => NoiseLevel::default(),
             Some(sd) if positive("noise_sd", sd)? > 1e6 || sd < 1e-12 => {
@@ -145,13 +151,9 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
             }
             Some(sd) => NoiseLevel::expected((sd * sd / f64::from(config.block)) as f32),
         };
-        let mut rule = [CheckedRule::NEVER; P];
-        for (out, r) in rule.iter_mut().zip(&config.rule) {
-            *out = r.checked()?;
-        }
-        let schedule = Schedule::new(N as u32, config.block, config.turn, period);
+        let schedule = Schedule::new(N as u32, config.block, config.turn, period, covariance.steps);
         let observer_decay = config.observer.decay(period, "observer.lambda", "observer.q")?;
-        let p = observer_decay.p;
+        let innovation = innovation_step_gain(observer_decay.p) * f64::from(config.block);
         Ok(Self {
             substeps: config.substeps,
             substep: Substep::new(config.substeps)?,
@@ -162,18 +164,14 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
             observer_stride: WindowDesign::new(&observer_decay.over(schedule.gains_every)),
             identifier: IdentifierDesign::from_decay(&decay),
             block: BlockDesign::new(config.block),
-            innovation_to_mean: (1.0 / (innovation_step_gain(p) * f64::from(config.block))) as f32,
+            innovation_to_mean: (1.0 / innovation) as f32,
             readout: config.readout,
             forgetting: forgetting as f32,
             noise_forgetting: covariance.noise_forgetting(),
             covariance,
             noise,
-            drift,
-            drift_t2,
-            any_drift: drift.iter().any(|&c| c != 0.0),
+            any_drift: config.drift.iter().any(|&c| c != 0.0),
             period2: (period * period) as f32,
-            nominal,
-            rule,
             parameter_settle: samples("parameter_settle", config.parameter_settle, period)?,
             state_settle: samples("state_settle", config.state_settle, period)?,
             late_settle: samples("observer.lambda", 8.0 / config.observer.lambda, period)?,
@@ -182,19 +180,6 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
             observer_tuning: config.observer,
             measurement_period: period,
         })
-    }
-
-    /// The parameter that `axis` shares in.
-    #[inline(always)]
-    pub(super) const fn parameter_of(axis: usize) -> usize {
-        if P == 1 { 0 } else { axis }
-    }
-
-    /// Blocks after a coarse step of the shared covariance at which the axis takes its own. Where all axes complete their
-    /// blocks at once (M = 1) they take turns.
-    #[inline(always)]
-    pub(super) const fn coarse_slot(&self, axis: usize) -> u32 {
-        if self.block_length == 1 && self.covariance.steps as usize > N { axis as u32 + 1 } else { 0 }
     }
 }
 

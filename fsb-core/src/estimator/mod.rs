@@ -5,18 +5,22 @@
 //! | file | what |
 //! |---|---|
 //! | `config` | plain data |
-//! | `design` | the same, validated and turned into constants; what is done when |
-//! | `axis` | the state of one axis, and what it does now and then |
+//! | `design` | the same, validated and turned into constants |
+//! | `schedule` | who has a turn at which measurement |
+//! | `axis` | the state of one axis, and what it does at its turns |
 //! | `shared` | the state that depends on time alone: windows, gains, weights, covariance |
 //! | `step` | the two calls a tick |
+//! | `advance` | what a measurement instant does |
 //! | `readings` | what is handed out |
 //! | `output` | the types of that |
 
+mod advance;
 mod axis;
 mod config;
 mod design;
 mod output;
 mod readings;
+mod schedule;
 mod shared;
 mod step;
 
@@ -26,7 +30,7 @@ pub use output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
 
 use crate::error::ConfigError;
 use crate::readout::ParameterState;
-use axis::Axis;
+use axis::{Axis, Clocks};
 use shared::{IdentifierClock, ObserverClock};
 
 /// k of N axes (P parameters), their positions and velocities, from positions and known inputs alone.
@@ -52,6 +56,8 @@ pub struct Estimator<const N: usize, const P: usize> {
     started: bool,
     /// Every axis has been measured and not been lost.
     all_measured: bool,
+    /// The next measurement can go the quick way.
+    steady: bool,
     counters: Counters,
 }
 
@@ -67,13 +73,14 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Starts empty on a design made before.
     pub fn with_design(design: EstimatorDesign<N, P>) -> Self {
         Self {
-            observer: ObserverClock::start(design.schedule.gains_first),
-            identifier: IdentifierClock::start(design.schedule.turn),
-            axes: [Axis::start(design.noise); N],
+            observer: ObserverClock::START,
+            identifier: IdentifierClock::start(design.common.schedule.turn),
+            axes: [Axis::start(design.common.noise); N],
             parameters: [ParameterState::START; P],
             substep: 0,
             started: false,
             all_measured: false,
+            steady: false,
             counters: Counters::default(),
             design,
         }
@@ -87,14 +94,16 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Starts the identification anew (section III of the paper: "each reinitialization"), the observer going on. Until
     /// the new k̂ is valid the observer predicts with the nominal parameter, if there is one.
     pub fn reset_identifier(&mut self) {
-        self.identifier = IdentifierClock::start(self.design.schedule.turn);
+        let next = if self.started { self.observer.count.saturating_add(1) } else { 0 };
+        self.identifier = IdentifierClock::start(next.saturating_add(self.design.common.schedule.turn));
         self.parameters = [ParameterState::START; P];
+        self.steady = false;
         for (index, axis) in self.axes.iter_mut().enumerate() {
-            axis.reset_identifier(self.design.noise);
-            let parameter_index = EstimatorDesign::<N, P>::parameter_of(index);
-            let nominal = self.design.nominal.get(parameter_index).copied().flatten();
-            let clocks = (&self.identifier, &self.observer);
-            axis.follow(index, &ParameterState::START, nominal, clocks, &self.design);
+            axis.reset_identifier(self.design.common.noise);
+            if let Some(own) = self.design.own(index) {
+                let clocks = Clocks { identifier: &self.identifier, observer: &self.observer };
+                axis.change_source(&ParameterState::START, &own, clocks, &self.design.common);
+            }
         }
     }
 }

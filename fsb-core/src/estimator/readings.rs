@@ -22,10 +22,10 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// was applied since.
     pub fn states(&self) -> [Option<AxisState>; N] {
         // Time since the last measurement instant over T.
-        let t = self.substep as f32 * self.design.substep_share;
+        let t = self.substep as f32 * self.design.common.substep_share;
         self.axes.each_ref().map(|axis| {
             let usable = matches!(axis.source, Source::Identified | Source::Nominal);
-            if !usable || !axis.measured || self.observer.count < axis.valid_from {
+            if !usable || !axis.measured || self.observer.count < axis.settled_at {
                 return None;
             }
             let w = axis.observer.t_velocity();
@@ -40,7 +40,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             };
             Some(AxisState {
                 position: axis.observer.position(ahead, &self.observer.gains),
-                velocity: (w + step) * self.design.observer.per_period,
+                velocity: (w + step) * self.design.common.observer.per_period,
             })
         })
     }
@@ -49,7 +49,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     pub fn state_status(&self) -> [StateStatus; N] {
         self.axes.each_ref().map(|axis| match axis.source {
             _ if !axis.measured => StateStatus::NotMeasured,
-            _ if self.observer.count < axis.valid_from => StateStatus::Settling,
+            _ if self.observer.count < axis.settled_at => StateStatus::Settling,
             Source::Identified => StateStatus::Identified,
             Source::Nominal => StateStatus::Nominal,
             Source::Provisional | Source::Nothing => StateStatus::NoParameter,
@@ -59,14 +59,14 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Standard deviations of the states at the last measurement instant that measurement noise causes, where the noise
     /// level is known. The parameter's own uncertainty is not in them. Good to a few per cent; for reports, not for the tick.
     pub fn state_sd(&self) -> [Option<AxisState>; N] {
-        let (tuning, period) = (self.design.observer_tuning, self.design.measurement_period);
+        let (tuning, period) = (self.design.common.observer_tuning, self.design.common.measurement_period);
         let gain = NoiseGain::at_sample(self.observer.count, tuning, period);
         self.axes.each_ref().map(|axis| {
             // Means over M samples have an M-th of the variance.
-            let variance = axis.noise.measurement_variance() * self.design.block_length as f32;
+            let variance = axis.noise.measurement_variance() * self.design.common.block_length as f32;
             (axis.noise.is_known() && axis.measured).then(|| AxisState {
                 position: libm::sqrtf(variance * gain.position()),
-                velocity: libm::sqrtf(variance * gain.velocity(&self.design.observer)),
+                velocity: libm::sqrtf(variance * gain.velocity(&self.design.common.observer)),
             })
         })
     }
@@ -78,7 +78,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             let drift = self.design.drift.get(index).copied().unwrap_or(0.0);
             let ratio = self.parameters.get(EstimatorDesign::<N, P>::parameter_of(index)).map(|p| p.ratio);
             let zu = self.identifier.unit.zu();
-            let scale = self.design.identifier.scale;
+            let scale = self.design.common.identifier.scale;
             AxisDiagnostics {
                 z2: (axis.cascade.z2() - drift * zu) / scale,
                 z0: axis.cascade.z0() / scale,

@@ -1,60 +1,60 @@
 //! The state that depends on time alone, shared by all axes: windows, gains, weights, covariance.
 
-use super::design::EstimatorDesign;
+use super::design::Common;
 use crate::identifier::{Coefficients, UnitChain};
 use crate::observer::Gains;
 use crate::readout::NoiseShape;
 use crate::window::Window;
 
-/// The observer's part: one step a measurement.
+/// The observer's part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ObserverClock {
     window: Window,
     pub gains: Gains,
-    pub before: Gains,
     /// Measurement instants since the first one; saturates.
     pub count: u32,
-    /// Measurements until the gains are renewed.
+    /// Measurements until the gains are renewed, where a round is longer than that.
     until: u32,
-    /// The window moves with the renewals, not with the measurements.
-    striding: bool,
+    /// The gains change slowly: they are renewed, and the window moves, once in a while.
+    pub striding: bool,
 }
 
 impl ObserverClock {
     /// Measurements in which the gains change too fast to be held.
     const HURRIED: u32 = 32;
 
-    pub const fn start(first: u32) -> Self {
-        Self {
-            window: Window::START,
-            gains: Gains::FIRST,
-            before: Gains::FIRST,
-            count: 0,
-            until: first,
-            striding: false,
+    pub const START: Self = Self { window: Window::START, gains: Gains::FIRST, count: 0, until: 0, striding: false };
+
+    /// The gains of the next of the first measurements.
+    pub fn next(&mut self, common: &Common) -> Gains {
+        self.window.step(&common.observer.window);
+        // The very first at once, then in turns with an estimator that has another turn.
+        if self.count < 4 || (self.count ^ common.schedule.turn) & 1 == 0 {
+            Gains::at(&self.window, &common.observer)
+        } else {
+            self.gains
         }
     }
 
-    /// To the next measurement.
-    #[inline(always)]
-    pub fn step<const N: usize, const P: usize>(&mut self, design: &EstimatorDesign<N, P>) {
-        self.before = self.gains;
-        self.count = self.count.saturating_add(1);
-        let due = self.until == 0;
-        self.until = if due { design.schedule.gains_every - 1 } else { self.until - 1 };
-        if self.striding {
-            if due && !self.window.is_settled() {
-                self.window.step(&design.observer_stride);
-                self.gains = Gains::at(&self.window, &design.observer);
-            }
-        } else {
-            self.window.step(&design.observer.window);
-            // The first ones at once, the next in turns with an estimator that has another turn.
-            if self.count < 4 || (self.count ^ design.schedule.turn) & 1 == 0 {
-                self.gains = Gains::at(&self.window, &design.observer);
-            }
-            self.striding = due && self.count >= Self::HURRIED;
+    /// At the gains' turn: from now on they stride.
+    pub fn settle(&mut self) {
+        self.striding = self.striding || self.count >= Self::HURRIED;
+    }
+
+    /// New gains for the measurements to come.
+    #[inline(never)]
+    pub fn renew(&mut self, common: &Common) {
+        if !self.window.is_settled() {
+            self.window.step(&common.observer_stride);
+            self.gains = Gains::at(&self.window, &common.observer);
         }
+    }
+
+    /// Whether it is the gains' turn, in a long round.
+    pub fn is_due(&mut self, common: &Common) -> bool {
+        let due = self.until == 0;
+        self.until = if due { common.schedule.gains_every - 1 } else { self.until - 1 };
+        due
     }
 }
 
@@ -65,12 +65,10 @@ pub(super) struct IdentifierClock {
     pub at: Coefficients,
     pub unit: UnitChain,
     pub shape: NoiseShape,
-    /// The present measurement's place in the block of the first axis.
+    /// The present measurement's place in the round.
     pub position: u32,
-    /// Measurements until the identification begins.
-    pub delay: u32,
-    /// Measurements since the identification began; saturates.
-    pub age: u32,
+    /// The measurement count at which the identification began or begins.
+    pub began: u32,
     /// Blocks for which weights have been computed; saturates.
     pub blocks: u32,
     /// Blocks since the last coarse step.
@@ -80,15 +78,14 @@ pub(super) struct IdentifierClock {
 }
 
 impl IdentifierClock {
-    pub fn start(turn: u32) -> Self {
+    pub fn start(began: u32) -> Self {
         Self {
             window: Window::START,
             at: Coefficients::default(),
             unit: UnitChain::default(),
             shape: NoiseShape::START,
             position: 0,
-            delay: turn,
-            age: 0,
+            began,
             blocks: 0,
             stride: 0,
             settled: false,
@@ -96,20 +93,20 @@ impl IdentifierClock {
     }
 
     /// The weights for the present block, for all axes, and every D-th time a coarse step.
-    #[inline(always)]
-    pub fn step<const N: usize, const P: usize>(&mut self, design: &EstimatorDesign<N, P>) {
-        let identifier = &design.identifier;
-        let last = design.covariance.steps - 1;
+    #[inline(never)]
+    pub fn step(&mut self, common: &Common) {
+        let identifier = &common.identifier;
+        let last = common.covariance.steps - 1;
         self.stride = if self.blocks == 0 || self.stride >= last { 0 } else { self.stride + 1 };
         if self.stride == 0 {
-            self.shape.step(&self.window, &design.covariance);
+            self.shape.step(&self.window, &common.covariance);
         }
         if !self.settled {
             self.at = Coefficients::at(&self.window, identifier);
             self.settled = self.window.is_settled();
             self.window.step(&identifier.window);
         }
-        if design.any_drift {
+        if common.any_drift {
             self.unit.step(identifier, &self.at);
         }
         self.blocks = self.blocks.saturating_add(1);

@@ -19,8 +19,9 @@ use crate::window::{Window, WindowDesign};
 const SCALE: f64 = 1_048_576.0;
 const SCALE_CHOICES: u32 = 512;
 
-/// Added to the input of each cascade, in scaled units: a cascade left without input settles here, instead of decaying
-/// through the subnormal numbers. It is 1e-26 of the physical unit.
+/// Added to the input of every stage that has one, in scaled units: a cascade left without input settles here, instead of
+/// decaying through the subnormal numbers. All three stages of the position chain need it: the inputs that a constant
+/// position gives them cancel. It is 1e-26 of the physical unit.
 pub(crate) const KEEP_NORMAL: f32 = 1e-20;
 
 /// Constants of an identifier: a tuning at the period at which it is stepped.

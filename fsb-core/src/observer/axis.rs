@@ -12,8 +12,9 @@ use super::gains::{Gains, ObserverDesign};
 use crate::accumulator::Accumulator;
 use crate::moments::InputMoments;
 
-/// Innovations below this are none, m or rad: they end at zero instead of decaying through the subnormal numbers.
-const NO_INNOVATION: f32 = 1e-20;
+/// Innovations, and motions in a period, below this are none, m or rad: they end at zero instead of decaying through the
+/// subnormal numbers.
+const NOTHING: f32 = 1e-20;
 
 /// What the axis is taken to obey, `y'' = k f + c`, over one period: k T² and c T².
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,28 +58,31 @@ impl Observer {
 
     /// Predicts over one period with the input `moments` and corrects with the measurement `y`.
     ///
-    /// `before` are the gains of the sample before, `now` those of this one. Cost: 14 operations. Every 32 samples or
-    /// sooner [`fold`](Self::fold) is due.
+    /// `m1` is that of the sample before, `t_l2` that of this one. Cost: 14 operations. Every 32 samples or sooner
+    /// [`fold`](Self::fold) is due.
     #[inline(always)]
-    pub fn correct(&mut self, y: f32, moments: InputMoments, model: &Model, before: &Gains, now: &Gains) {
+    pub fn correct(&mut self, y: f32, moments: InputMoments, model: &Model, m1: f32, t_l2: f32) {
         let step = self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2);
-        self.r = (y - self.y) - step + before.m1 * self.r;
-        self.w.add(model.k_t2 * moments.j1 + model.c_t2 + now.t_l2 * self.r);
+        self.r = (y - self.y) - step + m1 * self.r;
+        self.w.add(model.k_t2 * moments.j1 + model.c_t2 + t_l2 * self.r);
         self.y = y;
     }
 
-    /// ŷ⁻, the measurement to be expected after one period: what takes the place of one that is missed.
-    #[inline(always)]
-    pub fn predict(&self, moments: InputMoments, model: &Model, before: &Gains) -> f32 {
-        self.y + (self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2) - before.m1 * self.r)
+    /// ŷ⁻, the measurement to be expected after one period: what takes the place of one that is missed. `m1` is that of
+    /// the sample before.
+    pub fn predict(&self, moments: InputMoments, model: &Model, m1: f32) -> f32 {
+        self.y + (self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2) - m1 * self.r)
     }
 
-    /// Moves collected steps into totals, and ends an innovation that has died away.
+    /// Moves collected steps into totals, and ends an innovation and a velocity that have died away.
     #[inline(always)]
     pub fn fold(&mut self) {
         self.w.fold();
-        if self.r.abs() < NO_INNOVATION {
+        if self.r.abs() < NOTHING {
             self.r = 0.0;
+            if self.w.value().abs() < NOTHING {
+                self.w = Accumulator::ZERO;
+            }
         }
     }
 

@@ -80,6 +80,11 @@ impl Gains {
         Self { m1: design.p2 * w.g_before * per_g, t_l2: s * s + design.l2_factor * (1.0 - a) * w.e * per_g }
     }
 
+    /// 1 - l1.
+    pub const fn m1(&self) -> f32 {
+        self.m1
+    }
+
     /// l1, the share of the innovation that the position estimate follows.
     pub const fn l1(&self) -> f32 {
         1.0 - self.m1

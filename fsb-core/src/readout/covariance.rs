@@ -35,12 +35,13 @@ pub(crate) struct CovarianceDesign {
 }
 
 impl CovarianceDesign {
-    /// λ D T is kept at about this.
-    const COARSE: f64 = 0.04;
+    /// λ D T is kept at about this; steps of more than half of it are taken as they are.
+    const COARSE: f64 = 0.05;
 
     /// For an identifier with the rates `lambda` and `q` at `period`, with the share `forgetting` forgotten in each step.
     pub fn new(lambda: f64, q: f64, period: f64, forgetting: f64) -> Self {
-        let stride = libm::fmax(1.0, libm::round(Self::COARSE / (libm::fmax(lambda, q) * period)));
+        let strides = Self::COARSE / (libm::fmax(lambda, q) * period);
+        let stride = if strides > 2.0 { libm::round(strides) } else { 1.0 };
         let coarse = stride * period;
         let (c, alpha) = (-libm::expm1(-lambda * coarse), -libm::expm1(-q * coarse));
         let decay = Decay { period: coarse, c, p: 1.0 - c, alpha, rho: 1.0 - alpha };

@@ -116,6 +116,8 @@ pub(crate) struct ParameterState {
     pub status: ParameterStatus,
     read: bool,
     credible: bool,
+    /// A coarse step has been taken since the variance was read.
+    pub stale: bool,
 }
 
 impl ParameterState {
@@ -127,6 +129,7 @@ impl ParameterState {
         status: ParameterStatus::Settling,
         read: false,
         credible: false,
+        stale: false,
     };
 
     /// The newest quotient, valid or not: for prediction in place of a missed sample, and for residuals.
@@ -159,6 +162,7 @@ impl ParameterState {
     /// The variance of the quotient from that of its numerator, where that is known. `scale2` is the square of the
     /// identifier's scale.
     pub fn read_variance(&mut self, numerator: Option<f32>, scale2: f32) {
+        self.stale = false;
         let information = self.ratio.denominator();
         if let Some(variance) = numerator
             && information > 0.0
@@ -169,27 +173,42 @@ impl ParameterState {
         }
     }
 
-    /// The quotient from the sums as they are, and its status.
+    /// The quotient from the sums as they are, and its status. Folds the sums.
+    #[inline(always)]
     pub fn read(&mut self, settled: bool, rule: &CheckedRule) {
+        self.ratio.fold();
         let information = self.ratio.denominator();
-        let before = self.status;
         if information > 0.0 {
-            self.value = self.ratio.numerator() / information;
+            let value = self.ratio.numerator() / information;
+            self.value = value;
             self.read = true;
+            let limit = HYSTERESIS * rule.relative_variance * (value * value);
+            let stays = value >= rule.min && value <= rule.max && self.variance <= limit;
+            if stays && self.status == ParameterStatus::Valid {
+                return;
+            }
         }
+        self.judge(settled, rule);
+    }
+
+    #[inline(never)]
+    fn judge(&mut self, settled: bool, rule: &CheckedRule) {
         let value2 = self.value * self.value;
         let in_range = self.value >= rule.min && self.value <= rule.max;
-        self.credible = in_range && self.variance <= value2;
+        self.credible = self.read && in_range && self.variance <= value2;
         self.status = if !settled {
             ParameterStatus::Settling
         } else if !self.read {
             ParameterStatus::Unexcited
         } else if !in_range {
             ParameterStatus::OutOfRange
+        } else if self.variance > rule.relative_variance * value2 {
+            ParameterStatus::Uncertain
         } else {
-            let hysteresis = if before == ParameterStatus::Valid { 4.0 } else { 1.0 };
-            let limit = hysteresis * rule.relative_variance * value2;
-            if self.variance <= limit { ParameterStatus::Valid } else { ParameterStatus::Uncertain }
+            ParameterStatus::Valid
         };
     }
 }
+
+/// Twice the standard deviation at which a parameter becomes valid is the one at which it no longer is.
+const HYSTERESIS: f32 = 4.0;

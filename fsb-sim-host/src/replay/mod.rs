@@ -1,3 +1,36 @@
-//! Recorded flights through the f32 core: the axis log and its reader.
+//! Replay of a recorded flight ("axis log") through the f32 core.
+//!
+//! The translational axes present (x, y, z) are pooled into one parameter, 1/m, with gravity as the known drift of z; each
+//! rotational axis present (roll, pitch, yaw) has its own, 1/I. Row n of the log is one call of
+//! [`measure`](fsb_core::Estimator::measure) with the positions, then one of [`apply`](fsb_core::Estimator::apply) with the
+//! input, which the log gives as its mean over [t_n, t_(n+1)): the input moment J1 is exact, J2 as good as a held input is.
+//! Positions and inputs are rounded to f32 as they are, as a flight controller would see them.
+//!
+//! | file | what |
+//! |---|---|
+//! | `log` | the axis log and its reader |
+//! | `options` | what can be set, and the core's configuration that follows |
+//! | `feed` | a group of axes through one estimator, sample by sample |
+//! | `result` | the whole replay, and what came out |
+//! | `summary` | the same as one JSON object |
+//! | `overview` | the same as a table |
+//! | `estimates` | the same sample by sample, as CSV |
+//! | `figures`, `page` | the same to look at |
+//! | `error` | why a replay was refused |
 
+pub mod error;
+pub mod estimates;
+mod feed;
+mod figures;
 pub mod log;
+pub mod options;
+pub mod overview;
+pub mod page;
+pub mod result;
+pub mod summary;
+
+pub use error::ReplayError;
+pub use feed::{AxisTrace, ParameterTrace};
+pub use log::AxisLog;
+pub use options::ReplayOptions;
+pub use result::{AxisResult, ReplayResult, run};

@@ -1,0 +1,76 @@
+//! Which measurement does what, so that no tick carries everything.
+//!
+//! Within a round of measurements (a block; eight where blocks are single samples) every axis has its turn, one sample
+//! after the other; the identifier's weights and the observer's gains have theirs. An estimator with another `turn` has all
+//! of that so many measurements later: with blocks of ten (or single samples) and three axes each, turns 0 and 3 make two
+//! estimators that never have a turn in the same tick.
+
+/// Measurements within a round.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Schedule {
+    /// Measurements by which this estimator's turns come later.
+    pub turn: u32,
+    /// Measurements to a round.
+    pub round: u32,
+    /// At which measurement of a block the identifier's weights for it are computed.
+    pub weights_at: u32,
+    /// The observer's gains are renewed every so many measurements, once they change slowly. Any gains leave the estimate
+    /// exact; these are within a few per cent of the best ones.
+    pub gains_every: u32,
+    /// At which measurement of a round the gains are renewed; unused where a round is longer than `gains_every`.
+    pub gains_at: u32,
+    /// A bit for each measurement of a round (modulo 32) in which somebody has a turn.
+    pub events: u32,
+    /// Blocks of one: whether every axis is served at every measurement.
+    pub unhurried: bool,
+    /// Blocks of one: whether the axes take their coarse steps one after the other.
+    pub staggered: bool,
+}
+
+impl Schedule {
+    /// At this period and above there is time enough.
+    const UNHURRIED: f64 = 5e-3;
+
+    pub fn new(axes: u32, block: u32, turn: u32, period: f64, coarse_steps: u32) -> Self {
+        let round = if block == 1 { 8 } else { block };
+        let gains_every = if round <= 16 { round } else { 16 };
+        let weights_at = (axes + 2).min(block - 1);
+        // Blocks of ten: axes at 9, 0, 1 and 2, 3, 4 for a turn of 3; weights at 5 and 8; 7 and 6 are left.
+        // Single samples: axes at 0, 1, 2 and 3, 4, 5; 6 and 7 are left.
+        let gains_at = match (block, turn) {
+            (1, 0) => 6,
+            (1, turn) => (15 - turn % 8) % 8,
+            (_, 0) => round.saturating_sub(3),
+            (_, turn) => (2 * round - 4 - turn % round) % round.max(1),
+        };
+        let mut events = 0_u32;
+        if round > 16 {
+            events = u32::MAX;
+        } else {
+            for position in 0..round {
+                let begins = position < axes;
+                let completes = (position + 1) % round < axes;
+                if begins || completes || position == weights_at || position == gains_at {
+                    events |= 1 << position;
+                }
+            }
+        }
+        Self {
+            turn,
+            round,
+            weights_at,
+            gains_every,
+            gains_at,
+            events,
+            unhurried: period >= Self::UNHURRIED,
+            staggered: block == 1 && coarse_steps > axes,
+        }
+    }
+
+    /// Blocks after a coarse step of the shared covariance at which the axis takes its own.
+    #[inline(always)]
+    pub const fn coarse_slot(&self, axis: usize) -> u32 {
+        if self.staggered { axis as u32 + 1 } else { 0 }
+    }
+}

@@ -1,0 +1,108 @@
+//! The command line.
+//!
+//! | file | what |
+//! |---|---|
+//! | `paper` | Section V with its table, figures and statistics; also what runs without arguments |
+//! | `replay` | a recorded flight through the core |
+//! | `efficiency` | the spread of k̂ against the Cramér-Rao bound |
+//! | `soak` | hours of simulated flight beside the f64 twin |
+//!
+//! Results go to stdout, everything else to stderr. With `--json` stdout holds one JSON object and nothing else.
+
+// Documentation of arguments is help text, and units stand in brackets there.
+#![allow(rustdoc::broken_intra_doc_links)]
+
+mod efficiency;
+mod paper;
+mod replay;
+mod soak;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use serde::Serialize;
+
+const EXIT_STATUS: &str = "Exit status: 0 done; 1 it failed, or what the command checks does not hold; 2 a parameter or an \
+                           input is wrong, and nothing was written.";
+
+/// k and the state of a multirotor from noisy positions: the paper reproduced, and what the f32 core is worth.
+///
+/// Without a command: `fsb paper` with its defaults.
+#[derive(Debug, Parser)]
+#[command(name = "fsb", version, after_help = EXIT_STATUS)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    #[command(after_help = EXIT_STATUS)]
+    Paper(paper::Args),
+    #[command(after_help = EXIT_STATUS)]
+    Replay(replay::Args),
+    #[command(after_help = EXIT_STATUS)]
+    Efficiency(efficiency::Args),
+    #[command(after_help = EXIT_STATUS)]
+    Soak(soak::Args),
+}
+
+/// Why a command ended without its result.
+#[derive(Debug)]
+enum Failure {
+    /// A parameter or an input is wrong: exit status 2.
+    Usage(String),
+    /// Something else: exit status 1.
+    Other(anyhow::Error),
+}
+
+impl<E: Into<anyhow::Error>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::Other(error.into())
+    }
+}
+
+/// Runs the command of this process.
+pub fn run() -> ExitCode {
+    let done = match Cli::parse().command.unwrap_or_else(|| Command::Paper(paper::Args::default())) {
+        Command::Paper(args) => paper::run(&args),
+        Command::Replay(args) => replay::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Efficiency(args) => efficiency::run(&args),
+        Command::Soak(args) => soak::run(&args),
+    };
+    match done {
+        Ok(status) => status,
+        Err(Failure::Usage(message)) => {
+            eprintln!("error: {message}");
+            ExitCode::from(2)
+        }
+        Err(Failure::Other(error)) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints `value` as one JSON object; numbers that are not finite become null.
+fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    print_text(&serde_json::to_string_pretty(value)?)
+}
+
+/// Prints `text` and a line feed to stdout. A reader that has gone away is no failure.
+fn print_text(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
+    }
+}
+
+/// A positive finite number, for clap.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        Ok(_) => Err("must be a positive finite number".to_owned()),
+        Err(error) => Err(error.to_string()),
+    }
+}

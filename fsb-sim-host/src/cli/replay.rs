@@ -1,0 +1,151 @@
+//! `fsb replay`: the parameters and velocities that a recorded flight tells.
+
+use super::{Failure, print_json, print_text};
+use clap::{Parser, ValueEnum};
+use fsb_core::Tuning;
+use fsb_core::readout::{Memory, Readout};
+use fsb_sim_host::replay::{AxisLog, ReplayOptions, ReplayResult, overview, page, run as replay, summary::Summary};
+use fsb_sim_host::report::{html::HowMade, write::write_files};
+use std::path::{Path, PathBuf};
+
+/// Run a recorded flight through the f32 core: mass, moments of inertia, positions and velocities.
+///
+/// LOG.csv is an axis log: a header; t [s], uniform; for each axis present among x, y, z, roll, pitch, yaw a position
+/// column of that name [m or rad, world frame, z up] and an input column fx, fy, fz [N, world frame] or taux, tauy, tauz
+/// [N m]: the mean input from this row to the next. An empty position is a missed measurement. Columns vx_ref,
+/// vy_ref, ... vyaw_ref [m/s or rad/s] are compared with; other columns are ignored.
+///
+/// The axes x, y, z are pooled into one parameter, k = 1/m; roll, pitch and yaw each have their own, k = 1/I. There is no
+/// first guess: states are handed out from the moment k is valid, and k is valid once its standard deviation is known
+/// (eight steps of its variance, together 0.32/λ) and at most 5 % of k (10 % once valid), for k within 1e-6..1e9. Nothing
+/// is held back longer: on recorded flights the first pooled k that passes is as good as the one of half a second later.
+/// The standard deviation is that of measurement noise; what the model lacks, such as drag, comes on top of it.
+///
+/// Each axis group starts at the first row that has a position of all its axes. At a high rate, where λ (or q) times the time
+/// step is below 1.3e-3, the identifier works on means of several samples.
+///
+/// A log in which nothing becomes valid is replayed like any other, with exit status 0: the reason is told, and the JSON
+/// has null values with "valid": false.
+#[derive(Parser, Debug, Clone)]
+#[command(verbatim_doc_comment)]
+#[allow(rustdoc::broken_intra_doc_links, reason = "units in brackets; this is the help text")]
+pub struct Args {
+    /// The axis log.
+    #[arg(value_name = "LOG.csv")]
+    log: PathBuf,
+    /// λ of the identifier [1/s]; λT must be within 1e-6 and 1, T being the time step of the log.
+    #[arg(long, value_name = "L", default_value_t = 2.0, allow_negative_numbers = true)]
+    lambda: f64,
+    /// q of the identifier [1/s], within the same range [default: λ/2].
+    #[arg(long, value_name = "Q", allow_negative_numbers = true)]
+    q: Option<f64>,
+    /// λ of the observer [1/s], within the same range.
+    #[arg(long, value_name = "L", default_value_t = 10.0, allow_negative_numbers = true)]
+    observer_lambda: f64,
+    /// q of the observer [1/s], within the same range [default: half its λ].
+    #[arg(long, value_name = "Q", allow_negative_numbers = true)]
+    observer_q: Option<f64>,
+    /// g [m/s²]; z points up.
+    #[arg(long, value_name = "G", default_value_t = 9.81, allow_negative_numbers = true)]
+    gravity: f64,
+    /// How k is read out.
+    #[arg(long, value_enum, default_value_t = ReadoutArg::Ls)]
+    readout: ReadoutArg,
+    /// Let the read-out forget with the time constant TAU [s] [default: it forgets nothing].
+    #[arg(long, value_name = "TAU", allow_negative_numbers = true)]
+    fade: Option<f64>,
+    /// Write estimates.csv, the figures as SVG and report.html into DIR, all or nothing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object and nothing else to stdout.
+    #[arg(long)]
+    json: bool,
+}
+
+/// `--readout`.
+#[derive(ValueEnum, Debug, Clone, Copy, PartialEq, Eq)]
+enum ReadoutArg {
+    /// Least squares: k = Σ ẑ2 ẑ0 / Σ ẑ0².
+    Ls,
+    /// The paper's absolute ratio (44): k = Σ|ẑ2| / Σ|ẑ0|.
+    Abs,
+}
+
+/// Replays and reports.
+///
+/// # Errors
+/// Bad input, named by file, line, column or option; a file that cannot be written. Nothing has been written then.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let log = AxisLog::read(&args.log).map_err(|error| Failure::Usage(error.to_string()))?;
+    let options = args.options();
+    let result = replay(&options, &log).map_err(|error| {
+        let file = if error.concerns_log() { format!("{}: ", args.log.display()) } else { String::new() };
+        Failure::Usage(format!("{file}{error}"))
+    })?;
+    if let Some(directory) = &args.out {
+        let files = page::files(&result, &log, args.how_made(&options))?;
+        for path in write_files(directory, &files)? {
+            eprintln!("wrote {}", path.display());
+        }
+    }
+    for line in remarks(&result, &log) {
+        eprintln!("fsb: {line}");
+    }
+    if args.json { print_json(&Summary::from(&result)) } else { print_text(&overview::table(&result).to_text()) }
+}
+
+/// What a reader should know and the result itself does not say.
+fn remarks(result: &ReplayResult, log: &AxisLog) -> Vec<String> {
+    let mut all: Vec<String> =
+        log.unpaired.iter().map(|column| format!("column {column} is alone and was not read")).collect();
+    if result.rejected > 0 {
+        all.push(format!("{} values beyond 1e6 in magnitude were not used", result.rejected));
+    }
+    all.extend(overview::invalid(result));
+    all
+}
+
+impl Args {
+    fn options(&self) -> ReplayOptions {
+        let tuning = |lambda: f64, q: Option<f64>| match q {
+            Some(q) => Tuning { lambda, q },
+            None => Tuning::from_lambda(lambda),
+        };
+        ReplayOptions {
+            identifier: tuning(self.lambda, self.q),
+            observer: tuning(self.observer_lambda, self.observer_q),
+            gravity: self.gravity,
+            readout: match self.readout {
+                ReadoutArg::Ls => Readout::LeastSquares,
+                ReadoutArg::Abs => Readout::AbsoluteRatio,
+            },
+            memory: self.fade.map_or(Memory::Infinite, |tau| Memory::Fading { tau }),
+        }
+    }
+
+    /// The page tells the log's name and not where it lies: the same log gives the same page.
+    fn how_made(&self, options: &ReplayOptions) -> HowMade {
+        let name = self.log.file_name().map_or(Path::new("LOG.csv"), Path::new).display();
+        let readout = self.readout.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
+        let mut parameters = vec![
+            ("--lambda", format!("{} 1/s", options.identifier.lambda)),
+            ("--q", format!("{} 1/s", options.identifier.q)),
+            ("--observer-lambda", format!("{} 1/s", options.observer.lambda)),
+            ("--observer-q", format!("{} 1/s", options.observer.q)),
+            ("--gravity", format!("{} m/s²", options.gravity)),
+            ("--readout", readout),
+        ];
+        parameters.extend(self.fade.map(|tau| ("--fade", format!("{tau} s"))));
+        let mut command = format!("fsb replay {name}");
+        for (flag, value) in &parameters {
+            let number = value.split(' ').next().unwrap_or_default();
+            command.push_str(&format!(" {flag} {number}"));
+        }
+        HowMade {
+            command,
+            version: format!("fsb {}", env!("CARGO_PKG_VERSION")),
+            parameters: parameters.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+            seed: None,
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! What came out, as a table.
+
+use super::feed::ParameterTrace;
+use super::result::{AxisResult, ReplayResult};
+use super::summary::about;
+use crate::report::table::{Cell, Column, Table};
+use fsb_core::readout::ParameterStatus;
+
+/// The parameters and axes of a replay, one a row, for the terminal and for the page.
+pub fn table(result: &ReplayResult) -> Table {
+    let columns = vec![
+        Column::left("parameter"),
+        Column::left("from"),
+        Column::right("value"),
+        Column::right("sd"),
+        Column::left("unit"),
+        Column::right("velocity rms error"),
+        Column::left("status at the end"),
+    ];
+    let mut table = Table::new("Parameters and axes", columns);
+    if let Some(mass) = &result.mass {
+        let names: Vec<&str> = result.axes.iter().filter(|a| a.axis.is_translation()).map(|a| a.axis.name()).collect();
+        table.push(row("mass", &names.join(", "), mass, "kg", None));
+        for axis in result.axes.iter().filter(|a| a.axis.is_translation()) {
+            table.push(row("mass", &format!("{} alone", axis.axis.name()), &axis.own, "kg", Some(axis)));
+        }
+    }
+    for axis in result.rotational() {
+        table.push(row(&format!("inertia {}", about(axis)), axis.axis.name(), &axis.own, "kg m²", Some(axis)));
+    }
+    table.with_note(&format!(
+        "{} samples {} s apart, {} positions missing. sd: as far as measurement noise causes it. Velocity [m/s or rad/s]: of the estimate (x, y, z with the pooled mass) \
+         against the reference of the log.",
+        result.samples, result.period, result.missed
+    ))
+}
+
+/// Why each parameter that is not valid at the end is not, a line each: the pooled mass and the moments of inertia.
+pub fn invalid(result: &ReplayResult) -> Vec<String> {
+    let mass = result.mass.iter().map(|trace| ("mass".to_owned(), trace));
+    let inertia = result.rotational().map(|a| (format!("inertia {}", about(a)), &a.own));
+    mass.chain(inertia)
+        .filter(|(_, trace)| trace.last().is_none())
+        .map(|(name, trace)| format!("{name} is not valid: {}{}", trace.status, reason(trace.status)))
+        .collect()
+}
+
+/// The status in more words.
+fn reason(status: ParameterStatus) -> &'static str {
+    match status {
+        ParameterStatus::Unexcited => " (the input has been zero)",
+        ParameterStatus::Uncertain => " (the standard deviation of k is above 5 % of k, or the log too short to tell)",
+        ParameterStatus::OutOfRange => " (k is negative, or not within 1e-6 and 1e9)",
+        _ => "",
+    }
+}
+
+fn row(parameter: &str, from: &str, trace: &ParameterTrace, unit: &str, axis: Option<&AxisResult>) -> Vec<Cell> {
+    let (value, sd) = trace.last().map_or((f64::NAN, f64::NAN), |k| {
+        let (value, sd) = k.inverse_with_sd();
+        (f64::from(value), f64::from(sd))
+    });
+    let error = axis.and_then(|a| a.velocity_rms_error);
+    vec![
+        Cell::text(parameter),
+        Cell::text(from),
+        Cell::significant(value, 5),
+        Cell::significant(sd, 2),
+        Cell::text(unit),
+        error.map_or(Cell::Missing, |e| Cell::significant(e, 3)),
+        Cell::text(&trace.status.to_string()),
+    ]
+}
