@@ -188,8 +188,8 @@ typedef struct fsb_axis_config_t {
   // Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
   // and no less accurate.
   uint32_t block;
-  // Measurements by which the identifier starts late, below `block`: several estimators on one processor then
-  // do not complete their blocks in the same tick.
+  // Measurements by which the turns of this estimator come later, so that several on one processor do not do their
+  // rare work in the same tick. Below `block`, or below 8 where that is more.
   uint32_t turn;
   // FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
   uint32_t readout;
@@ -302,8 +302,8 @@ typedef struct fsb_rotation_config_t {
   // Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
   // and no less accurate.
   uint32_t block;
-  // Measurements by which the identifier starts late, below `block`: several estimators on one processor then
-  // do not complete their blocks in the same tick.
+  // Measurements by which the turns of this estimator come later, so that several on one processor do not do their
+  // rare work in the same tick. Below `block`, or below 8 where that is more.
   uint32_t turn;
   // FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
   uint32_t readout;
@@ -378,8 +378,8 @@ typedef struct fsb_translation_config_t {
   // Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
   // and no less accurate.
   uint32_t block;
-  // Measurements by which the identifier starts late, below `block`: several estimators on one processor then
-  // do not complete their blocks in the same tick.
+  // Measurements by which the turns of this estimator come later, so that several on one processor do not do their
+  // rare work in the same tick. Below `block`, or below 8 where that is more.
   uint32_t turn;
   // FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
   uint32_t readout;

@@ -73,13 +73,7 @@ where
     O: Object<Value = Estimator<N, P>>,
 {
     // SAFETY: the pointers come from the C caller, whose contract this is.
-    unsafe {
-        change(estimator, |estimator| {
-            let position: [f32; N] = take(position)?;
-            let measured = position.map(|y| if y.is_nan() { None } else { Some(y) });
-            estimator.measure(&measured).map_err(|_| FSB_OUT_OF_STEP)
-        })
-    }
+    unsafe { change(estimator, |estimator| estimator.measure_raw(&take(position)?).map_err(|_| FSB_OUT_OF_STEP)) }
 }
 
 /// # Safety

@@ -13,3 +13,12 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
         unsafe { core::arch::asm!("udf #0") }
     }
 }
+
+/// What the check for reachable panics must find: built by `cargo xtask c` alone, to show that the check can fail.
+///
+/// cbindgen:ignore
+#[cfg(reachable_panic)]
+#[unsafe(no_mangle)]
+extern "C" fn fsb_reachable_panic(index: usize) -> u8 {
+    b"fsb"[index]
+}

@@ -43,8 +43,8 @@ pub struct fsb_translation_config_t {
     /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
     /// and no less accurate.
     pub block: u32,
-    /// Measurements by which the identifier starts late, below `block`: several estimators on one processor then
-    /// do not complete their blocks in the same tick.
+    /// Measurements by which the turns of this estimator come later, so that several on one processor do not do their
+    /// rare work in the same tick. Below `block`, or below 8 where that is more.
     pub turn: u32,
     /// FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
     pub readout: u32,

@@ -142,7 +142,7 @@ static void configurations(void) {
   NAMED(period, NAN, FSB_CONFIG_NOT_FINITE, "period");
   NAMED(substeps, 0, FSB_CONFIG_ZERO, "substeps");
   NAMED(block, 0, FSB_CONFIG_ZERO, "block");
-  NAMED(turn, 1, FSB_CONFIG_OUT_OF_RANGE, "turn");
+  NAMED(turn, 8, FSB_CONFIG_OUT_OF_RANGE, "turn");
   NAMED(readout, 2, FSB_CONFIG_OUT_OF_RANGE, "readout");
   NAMED(identifier.lambda, 101.0, FSB_CONFIG_TOO_FAST, "identifier.lambda");
   NAMED(identifier.q, 1e-5, FSB_CONFIG_TOO_SLOW, "identifier.q");
