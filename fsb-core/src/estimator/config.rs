@@ -15,14 +15,14 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     /// (λT below about 1e-3): cheaper, and no less accurate. The axes take turns within the block.
     pub block: u32,
     /// Measurements by which the identifier starts later than the observer, so that several estimators on one processor do
-    /// not complete their blocks in the same tick. Below `block`.
+    /// not complete their blocks in the same tick: 0 for one, N + 1 for the other. Below `block`, or below 8.
     pub turn: u32,
     /// λ and q of the identifier.
     pub identifier: Tuning,
     /// λ and q of the observer.
     pub observer: Tuning,
     /// Standard deviation of a measurement (m or rad), where it is known beforehand. It is used until enough samples have
-    /// been seen to learn it; without it k̂ cannot be valid in the first eight steps of the variance (each 0.04/λ or a block).
+    /// been seen to learn it; without it k̂ cannot be valid in the first eight steps of the variance (each about 0.05/λ, or a block).
     pub noise_sd: Option<f64>,
     /// How k is read out.
     pub readout: Readout,

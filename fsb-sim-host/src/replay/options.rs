@@ -41,7 +41,7 @@ const FINEST_STEP: f64 = 2e-3;
 impl ReplayOptions {
     /// When k̂ counts as valid: positive, 1e-6..=1e9, and sd(k̂)/k̂ at most 5 % (10 % once valid).
     ///
-    /// There is no ε on top. The variance of k̂ needs eight of its steps (together 0.32/λ), which is one already; on
+    /// There is no ε on top. The variance of k̂ needs eight of its steps (together about 0.4/λ), which is one already; on
     /// recorded flights the pooled k̂ that this lets through first is no worse than the one of half a second later.
     pub fn rule() -> ParameterRule {
         ParameterRule { min: 1e-6, max: 1e9, max_relative_sd: 0.05 }
@@ -52,7 +52,7 @@ impl ReplayOptions {
     pub fn block(&self, period: f64) -> u32 {
         let fastest = self.identifier.lambda.max(self.identifier.q) * period;
         // What is not a number or not positive is refused by the core, under its own name.
-        if fastest > 0.0 { (FINEST_STEP / fastest).round().clamp(1.0, 65_536.0) as u32 } else { 1 }
+        if fastest > 0.0 { (FINEST_STEP / fastest).round().clamp(1.0, 65_535.0) as u32 } else { 1 }
     }
 
     /// The core's configuration for axes with the drifts `drift` in a log of the time step `period` \[s\].
