@@ -189,7 +189,7 @@ typedef struct fsb_axis_config_t {
   // and no less accurate.
   uint32_t block;
   // Measurements by which the turns of this estimator come later, so that several on one processor do not do their
-  // rare work in the same tick. Below `block`, or below 8 where that is more.
+  // rare work in the same tick: 0 for one, 2 for the next. Below `block`, or below 8 where that is more.
   uint32_t turn;
   // FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
   uint32_t readout;
@@ -269,7 +269,7 @@ typedef struct fsb_counters_t {
   uint32_t missed;
   // Measurements that were infinite or beyond the limit.
   uint32_t rejected_measurements;
-  // Inputs that were not finite or beyond the limit; the last good input of the axis was used in their place.
+  // Inputs that were not finite or beyond the limit; the axis's mean input of late was used in their place.
   uint32_t rejected_inputs;
 } fsb_counters_t;
 
@@ -303,7 +303,7 @@ typedef struct fsb_rotation_config_t {
   // and no less accurate.
   uint32_t block;
   // Measurements by which the turns of this estimator come later, so that several on one processor do not do their
-  // rare work in the same tick. Below `block`, or below 8 where that is more.
+  // rare work in the same tick: 0 for one, 4 for the next. Below `block`, or below 8 where that is more.
   uint32_t turn;
   // FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
   uint32_t readout;
@@ -379,7 +379,7 @@ typedef struct fsb_translation_config_t {
   // and no less accurate.
   uint32_t block;
   // Measurements by which the turns of this estimator come later, so that several on one processor do not do their
-  // rare work in the same tick. Below `block`, or below 8 where that is more.
+  // rare work in the same tick: 0 for one, 4 for the next. Below `block`, or below 8 where that is more.
   uint32_t turn;
   // FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
   uint32_t readout;
@@ -526,6 +526,7 @@ fsb_status_t fsb_rotation_reset_identifier(struct fsb_rotation_t *estimator);
 // Takes the angles [rad] at the present instant; NaN where a measurement is missing. Comes before apply, every
 // `substeps` ticks. An instant at which it is not called counts as missed on its own.
 //
+// The estimator starts at the first instant at which every axis is measured; what comes before only counts.
 // What is infinite or beyond the limit is rejected, counted, and treated as missing. Errors: FSB_NULL_POINTER,
 // FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_OUT_OF_STEP; nothing has changed then. For the tick: bounded work.
 fsb_status_t fsb_rotation_measure(struct fsb_rotation_t *estimator,
@@ -638,6 +639,7 @@ fsb_status_t fsb_translation_reset_identifier(struct fsb_translation_t *estimato
 // Takes the positions x, y, z [m] at the present instant; NaN where a measurement is missing. Comes before
 // apply, every `substeps` ticks. An instant at which it is not called counts as missed on its own.
 //
+// The estimator starts at the first instant at which every axis is measured; what comes before only counts.
 // What is infinite or beyond the limit is rejected, counted, and treated as missing. Errors: FSB_NULL_POINTER,
 // FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_OUT_OF_STEP; nothing has changed then. For the tick: bounded work.
 fsb_status_t fsb_translation_measure(struct fsb_translation_t *estimator,

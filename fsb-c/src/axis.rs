@@ -43,7 +43,7 @@ pub struct fsb_axis_config_t {
     /// and no less accurate.
     pub block: u32,
     /// Measurements by which the turns of this estimator come later, so that several on one processor do not do their
-    /// rare work in the same tick. Below `block`, or below 8 where that is more.
+    /// rare work in the same tick: 0 for one, 2 for the next. Below `block`, or below 8 where that is more.
     pub turn: u32,
     /// FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
     pub readout: u32,

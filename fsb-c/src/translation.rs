@@ -44,7 +44,7 @@ pub struct fsb_translation_config_t {
     /// and no less accurate.
     pub block: u32,
     /// Measurements by which the turns of this estimator come later, so that several on one processor do not do their
-    /// rare work in the same tick. Below `block`, or below 8 where that is more.
+    /// rare work in the same tick: 0 for one, 4 for the next. Below `block`, or below 8 where that is more.
     pub turn: u32,
     /// FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
     pub readout: u32,
@@ -114,6 +114,7 @@ pub unsafe extern "C" fn fsb_translation_reset_identifier(estimator: *mut fsb_tr
 /// Takes the positions x, y, z [m] at the present instant; NaN where a measurement is missing. Comes before
 /// apply, every `substeps` ticks. An instant at which it is not called counts as missed on its own.
 ///
+/// The estimator starts at the first instant at which every axis is measured; what comes before only counts.
 /// What is infinite or beyond the limit is rejected, counted, and treated as missing. Errors: FSB_NULL_POINTER,
 /// FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_OUT_OF_STEP; nothing has changed then. For the tick: bounded work.
 /// cbindgen:ptrs-as-arrays=[[position;3]]

@@ -98,7 +98,7 @@ pub struct fsb_counters_t {
     pub missed: u32,
     /// Measurements that were infinite or beyond the limit.
     pub rejected_measurements: u32,
-    /// Inputs that were not finite or beyond the limit; the last good input of the axis was used in their place.
+    /// Inputs that were not finite or beyond the limit; the axis's mean input of late was used in their place.
     pub rejected_inputs: u32,
 }
 

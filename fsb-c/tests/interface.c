@@ -160,7 +160,7 @@ static void configurations(void) {
   NAMED(rule.min, 0.0, FSB_CONFIG_NOT_POSITIVE, "rule.min");
   NAMED(rule.max, NAN, FSB_CONFIG_NOT_FINITE, "rule.max");
   NAMED(rule.max, 1e-7, FSB_CONFIG_INVERTED_RANGE, "rule.min");
-  NAMED(rule.max, 1e20, FSB_CONFIG_OUT_OF_RANGE, "rule.min, rule.max");
+  NAMED(rule.max, 1e20, FSB_CONFIG_OUT_OF_RANGE, "rule.max");
   NAMED(rule.max_relative_sd, 0.0, FSB_CONFIG_NOT_POSITIVE, "rule.max_relative_sd");
 }
 

@@ -3,10 +3,11 @@
 use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 
-use crate::command::{output, run, succeeds};
+use crate::command::{run, succeeds};
 use crate::metadata;
 
 const TARGET: &str = "thumbv7em-none-eabihf";
@@ -178,16 +179,27 @@ impl Build {
         Ok(arguments.into_iter().map(String::from).collect())
     }
 
-    /// What a program prints; it must succeed.
+    /// What a program prints; it must succeed. Where it does not, what it printed is shown.
     pub fn run(&self, machine: Machine, program: &Path) -> Result<String> {
-        match machine {
-            Machine::Host => output(text(program)?, &[]),
+        let mut command = match machine {
+            Machine::Host => Command::new(program),
             Machine::Target => {
-                let mut arguments = EMULATOR.to_vec();
-                arguments.push(text(program)?);
-                output("timeout", &arguments)
+                let mut emulator = Command::new("timeout");
+                emulator.args(EMULATOR).arg(program);
+                emulator
             }
+        };
+        let name = program.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let output = command
+            .stdin(Stdio::null())
+            .stderr(Stdio::inherit())
+            .output()
+            .with_context(|| format!("cannot start {name} on the {machine}"))?;
+        let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+        if !output.status.success() {
+            bail!("{name} on the {machine}: {}\n{printed}", output.status);
         }
+        Ok(printed)
     }
 }
 
