@@ -1,5 +1,6 @@
 //! Checks and recipes of this workspace. `cargo xtask test` is the whole gate; every step also runs alone.
 
+mod c_interface;
 mod command;
 mod hygiene;
 mod licences;
@@ -38,7 +39,7 @@ fn select(arguments: &[String]) -> Result<Option<Vec<&'static Step>>, String> {
         return Ok(None);
     }
     let mut chosen = Vec::new();
-    for argument in arguments {
+    for argument in arguments.iter().filter(|argument| *argument != "--write") {
         match STEPS.iter().find(|step| step.name == argument) {
             Some(step) => chosen.push(step),
             None if argument == "test" => chosen.extend(STEPS),
@@ -53,6 +54,7 @@ fn help() -> String {
     for step in STEPS {
         text += &format!("  {:<11} {}\n", step.name, step.about);
     }
+    text += "\n  --write   write what a step would only compare: the C header\n";
     text
 }
 
@@ -69,6 +71,7 @@ mod tests {
     fn test_is_every_step_and_a_name_is_one() {
         assert_eq!(names(&["test"]).unwrap().unwrap().len(), STEPS.len());
         assert_eq!(names(&["doc", "fmt"]).unwrap().unwrap(), ["doc", "fmt"]);
+        assert_eq!(names(&["c", "--write"]).unwrap().unwrap(), ["c"]);
     }
 
     #[test]

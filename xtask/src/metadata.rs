@@ -25,6 +25,13 @@ pub fn everything() -> Result<Vec<Value>> {
     Ok(all)
 }
 
+/// Where cargo puts what it builds.
+pub fn target_folder() -> Result<std::path::PathBuf> {
+    let metadata: Value = serde_json::from_str(&output("cargo", &["metadata", "--format-version", "1", "--no-deps"])?)?;
+    let folder = metadata["target_directory"].as_str().context("cargo metadata names no target folder")?;
+    Ok(folder.into())
+}
+
 fn packages(arguments: &[&str]) -> Result<Vec<Value>> {
     let mut metadata: Value = serde_json::from_str(&output("cargo", arguments)?)?;
     match metadata["packages"].take() {

@@ -11,9 +11,19 @@ pub const TARGETS: &[&str] = &["thumbv7em-none-eabihf", "thumbv7em-none-eabi"];
 
 /// Debian packages the steps use.
 const PACKAGES: &[Package] = &[
-    Package { name: "qemu-system-arm", present: || on_path("qemu-system-arm") },
+    Package { name: "gcc", present: || on_path("gcc") },
+    Package { name: "g++", present: || on_path("g++") },
+    Package { name: "gcc-arm-none-eabi", present: || on_path("arm-none-eabi-gcc") },
     Package { name: "binutils-arm-none-eabi", present: || on_path("arm-none-eabi-objdump") },
+    Package { name: "libnewlib-arm-none-eabi", present: newlib },
+    Package { name: "qemu-system-arm", present: || on_path("qemu-system-arm") },
 ];
+
+/// The cross-compiler answers with a path where it finds a file, with the bare name where it does not.
+fn newlib() -> bool {
+    let name = "-print-file-name=rdimon.specs";
+    on_path("arm-none-eabi-gcc") && output("arm-none-eabi-gcc", &[name]).is_ok_and(|path| path.contains('/'))
+}
 
 /// A Debian package, and how to see that what it brings is there.
 struct Package {

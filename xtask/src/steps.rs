@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 
 use crate::on_target::{cost, disassembly, examples, firmware, panics, parity, size};
-use crate::{hygiene, licences, lints, setup, suite, target};
+use crate::{c_interface, hygiene, licences, lints, setup, suite, target};
 
 /// One step of the gate.
 #[derive(Debug)]
@@ -37,6 +37,11 @@ pub const STEPS: &[Step] = &[
     Step { name: "panic", about: "no panic can be reached, by linking without a panic handler", run: panics::run },
     Step { name: "disassembly", about: "no allocation, transcendental or soft float in a tick", run: disassembly::run },
     Step { name: "examples", about: "the RTIC and the Embassy task build for the target", run: examples::run },
+    Step {
+        name: "c",
+        about: "the C interface: header, tests, size, the same bits on the target",
+        run: c_interface::run,
+    },
     Step { name: "doc", about: "documentation, warnings denied", run: lints::doc },
     Step { name: "suite", about: "cargo test on the whole workspace", run: suite::run },
 ];

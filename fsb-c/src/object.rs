@@ -1,0 +1,164 @@
+//! Caller-owned storage, and every check on a pointer.
+//!
+//! A C caller can hand in anything. NULL, a misaligned pointer, storage that was never initialised and storage of another
+//! kind of object are found and answered with a status; a pointer to freed or too little memory cannot be. That it is none
+//! is the contract of every function here: a pointer is NULL, misaligned, or leads to as many values of its type as the
+//! function says, which nobody else uses (for reading only: changes) during the call.
+
+use core::ffi::{CStr, c_char};
+
+use crate::status::{FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_NULL_POINTER, FSB_OK, fsb_status_t};
+use crate::version::FSB_VERSION;
+
+/// Opaque storage in C, and the Rust value kept in it.
+pub(crate) trait Object {
+    /// What is kept.
+    type Value: Copy;
+    /// Tells the kinds of objects apart.
+    const KIND: u32;
+}
+
+/// What stands in the storage. The mark comes first.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub(crate) struct Marked<V> {
+    mark: [u32; 2],
+    value: V,
+}
+
+/// "FSB" and the kind; the version, and the size, which differs between versions in development.
+const fn mark<O: Object>() -> [u32; 2] {
+    [0x4653_4200 | O::KIND, FSB_VERSION << 12 ^ size_of::<O::Value>() as u32]
+}
+
+/// Fails to compile where the value does not fit into the storage, or where the storage is more than twice the
+/// value's size.
+pub(crate) const fn check_storage<O: Object>(size: usize, alignment: usize) {
+    assert!(size_of::<O>() == size && align_of::<O>() == alignment, "the constants of fsb.h are those of the storage");
+    assert!(size_of::<Marked<O::Value>>() <= size, "the storage is too small");
+    assert!(align_of::<Marked<O::Value>>() <= alignment, "the storage is not aligned enough");
+    assert!(2 * size_of::<Marked<O::Value>>() >= size, "the storage is much larger than needed");
+}
+
+fn checked<T>(pointer: *const T) -> Result<(), fsb_status_t> {
+    if pointer.is_null() {
+        Err(FSB_NULL_POINTER)
+    } else if !pointer.is_aligned() {
+        Err(FSB_MISALIGNED)
+    } else {
+        Ok(())
+    }
+}
+
+/// # Safety
+/// The contract of this module, for one O.
+unsafe fn marked<O: Object>(object: *const O) -> Result<(), fsb_status_t> {
+    checked(object)?;
+    // SAFETY: not NULL, aligned, and in the caller's storage of O's size. Volatile, because a caller who forgot the
+    // initialisation may have left anything in it.
+    let found = unsafe { object.cast::<[u32; 2]>().read_volatile() };
+    if found == mark::<O>() { Ok(()) } else { Err(FSB_NOT_INITIALISED) }
+}
+
+/// The value in the storage, to be read.
+///
+/// # Safety
+/// The contract of this module, for one O.
+pub(crate) unsafe fn read<O: Object, R>(
+    object: *const O,
+    with: impl FnOnce(&O::Value) -> R,
+) -> Result<R, fsb_status_t> {
+    // SAFETY: the same contract.
+    unsafe { marked(object) }?;
+    // SAFETY: the mark says that `start` put a value of this type here, and nobody changes it during the call.
+    Ok(with(unsafe { &(*object.cast::<Marked<O::Value>>()).value }))
+}
+
+/// The value in the storage, to be changed.
+///
+/// # Safety
+/// The contract of this module, for one O.
+pub(crate) unsafe fn change<O: Object>(
+    object: *mut O,
+    with: impl FnOnce(&mut O::Value) -> Result<(), fsb_status_t>,
+) -> fsb_status_t {
+    // SAFETY: the same contract.
+    if let Err(status) = unsafe { marked(object.cast_const()) } {
+        return status;
+    }
+    // SAFETY: the mark says that `start` put a value of this type here, and nobody else uses it during the call.
+    code(with(unsafe { &mut (*object.cast::<Marked<O::Value>>()).value }))
+}
+
+/// Puts a new value into the storage. Where `make` fails the storage is marked as not initialised.
+///
+/// # Safety
+/// The contract of this module, for one O.
+pub(crate) unsafe fn start<O: Object>(
+    object: *mut O,
+    make: impl FnOnce() -> Result<O::Value, fsb_status_t>,
+) -> Result<(), fsb_status_t> {
+    checked(object.cast_const())?;
+    match make() {
+        Ok(value) => {
+            // SAFETY: not NULL, in the caller's storage, aligned for the value and large enough (`check_storage`).
+            unsafe { object.cast::<Marked<O::Value>>().write(Marked { mark: mark::<O>(), value }) };
+            Ok(())
+        }
+        Err(status) => {
+            // SAFETY: as above; the mark comes first.
+            unsafe { object.cast::<[u32; 2]>().write([0; 2]) };
+            Err(status)
+        }
+    }
+}
+
+/// Copies N values from the caller.
+///
+/// # Safety
+/// The contract of this module, for N values of T; T is made of numbers, so that any bits will do.
+pub(crate) unsafe fn take<T: Copy, const N: usize>(from: *const T) -> Result<[T; N], fsb_status_t> {
+    checked(from)?;
+    // SAFETY: not NULL, aligned, and N values stand there.
+    Ok(unsafe { from.cast::<[T; N]>().read() })
+}
+
+/// Copies N values to the caller: those of `make`, or where it fails N times `invalid`, so that nothing old is
+/// left there.
+///
+/// # Safety The contract of this module, for N values of T.
+pub(crate) unsafe fn give<T: Copy, const N: usize>(
+    to: *mut T,
+    invalid: T,
+    make: impl FnOnce() -> Result<[T; N], fsb_status_t>,
+) -> fsb_status_t {
+    if let Err(status) = checked(to.cast_const()) {
+        return status;
+    }
+    let (values, status) = match make() {
+        Ok(values) => (values, FSB_OK),
+        Err(status) => ([invalid; N], status),
+    };
+    // SAFETY: not NULL, aligned, and there is room for N values.
+    unsafe { to.cast::<[T; N]>().write(values) };
+    status
+}
+
+/// Hands out the name of a parameter, or NULL, where the caller gave a place for it.
+///
+/// # Safety
+/// The contract of this module, for one pointer.
+pub(crate) unsafe fn name(parameter: *mut *const c_char, name: Option<&'static CStr>) {
+    if checked(parameter.cast_const()).is_ok() {
+        // SAFETY: not NULL, aligned, and there is room for a pointer.
+        unsafe { parameter.write(name.map_or(core::ptr::null(), CStr::as_ptr)) };
+    }
+}
+
+/// The status of an outcome.
+pub(crate) fn code(outcome: Result<(), fsb_status_t>) -> fsb_status_t {
+    match outcome {
+        Ok(()) => FSB_OK,
+        Err(status) => status,
+    }
+}

@@ -1,0 +1,203 @@
+//! Three axes with a parameter each: roll, pitch, yaw and 1/inertia.
+
+#![allow(unsafe_op_in_unsafe_fn, reason = "every function passes its caller's contract on")]
+
+use core::ffi::c_char;
+
+use fsb_core::Estimator;
+
+use crate::config::{fsb_rule_t, fsb_tuning_t};
+use crate::estimator as any;
+use crate::object::{Object, check_storage};
+use crate::status::fsb_status_t;
+use crate::values::{fsb_counters_t, fsb_diagnostics_t, fsb_parameter_t, fsb_state_sd_t, fsb_state_t};
+
+/// sizeof(fsb_rotation_t).
+pub const FSB_ROTATION_SIZE: usize = 1280;
+/// Alignment of fsb_rotation_t.
+pub const FSB_ROTATION_ALIGNMENT: usize = 8;
+
+/// Three axes with a k each: angles (roll, pitch, yaw) under the torque (x, y, z), k = 1/inertia. Storage of the
+/// caller; what is in it is the library's.
+#[repr(C)]
+pub struct fsb_rotation_t {
+    /// Not to be touched. Copying the whole object is fine, and the copy goes on from there.
+    opaque: [u64; 160],
+}
+
+impl Object for fsb_rotation_t {
+    type Value = Estimator<3, 3>;
+    const KIND: u32 = 3;
+}
+
+const _: () = check_storage::<fsb_rotation_t>(FSB_ROTATION_SIZE, FSB_ROTATION_ALIGNMENT);
+
+/// Configuration of an fsb_rotation_t. Start from fsb_rotation_config_default.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct fsb_rotation_config_t {
+    /// Control period [s]: the time from one call of apply to the next. 1e-6..1e3.
+    pub period: f64,
+    /// Control periods from one measurement to the next, at least 1.
+    pub substeps: u32,
+    /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
+    /// and no less accurate.
+    pub block: u32,
+    /// Measurements by which the turns of this estimator come later, so that several on one processor do not do their
+    /// rare work in the same tick: 0 for one, 4 for the next. Below `block`, or below 8 where that is more.
+    pub turn: u32,
+    /// FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
+    pub readout: u32,
+    /// Tuning of the identifier; runs at period * substeps * block.
+    pub identifier: fsb_tuning_t,
+    /// Tuning of the observer; runs at period * substeps.
+    pub observer: fsb_tuning_t,
+    /// Standard deviation of a measurement [rad] where it is known beforehand, else NaN. 1e-12..1e6.
+    pub noise_sd: f64,
+    /// Time constant [s] with which the identifier forgets; INFINITY: never.
+    pub memory_tau: f64,
+    /// k is not valid earlier than this after a reset [s].
+    pub parameter_settle: f64,
+    /// States are not valid earlier than this after the first measurement [s].
+    pub state_settle: f64,
+    /// A measurement of larger magnitude is rejected [rad]. Up to 1e6.
+    pub position_limit: f64,
+    /// An input of larger magnitude is rejected [N m]. Up to 1e6.
+    pub input_limit: f64,
+    /// Known constant drift of each axis [rad/s^2]. Up to 1e6.
+    pub drift: [f64; 3],
+    /// k of each axis that the observer uses until the identified one is valid, else NaN: no state is valid
+    /// before. 1e-15..1e15.
+    pub nominal: [f64; 3],
+    /// When k of each axis counts as valid.
+    pub rule: [fsb_rule_t; 3],
+}
+
+/// The configuration for a control period [s], which is not checked here: every tick measured, no blocks, lambda
+/// 2 and q 1 for the identifier, 10 and 5 for the observer, least squares that never forget, no drift, no
+/// nominal k.
+#[unsafe(no_mangle)]
+pub extern "C" fn fsb_rotation_config_default(period: f64) -> fsb_rotation_config_t {
+    fsb_rotation_config_t::new(period)
+}
+
+/// Starts an estimator in the caller's storage. Nothing else may be called with it before; calling it again
+/// starts anew.
+///
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault
+/// as it is written in the configuration ("observer.lambda"; static storage), and the object is not initialised.
+/// Without a fault `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in
+/// double precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_init(
+    estimator: *mut fsb_rotation_t,
+    config: *const fsb_rotation_config_t,
+    parameter: *mut *const c_char,
+) -> fsb_status_t {
+    any::init(estimator, config, parameter, fsb_rotation_config_t::to_core)
+}
+
+/// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+/// FSB_NOT_INITIALISED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_reset(estimator: *mut fsb_rotation_t) -> fsb_status_t {
+    any::reset(estimator)
+}
+
+/// Starts the identification anew, the observer going on with the nominal k. For a known change of load. Errors:
+/// FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_reset_identifier(estimator: *mut fsb_rotation_t) -> fsb_status_t {
+    any::reset_identifier(estimator)
+}
+
+/// Takes the angles [rad] at the present instant; NaN where a measurement is missing. Comes before apply, every
+/// `substeps` ticks. An instant at which it is not called counts as missed on its own.
+///
+/// The estimator starts at the first instant at which every axis is measured; what comes before only counts.
+/// What is infinite or beyond the limit is rejected, counted, and treated as missing. Errors: FSB_NULL_POINTER,
+/// FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_OUT_OF_STEP; nothing has changed then. For the tick: bounded work.
+/// cbindgen:ptrs-as-arrays=[[angle;3]]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_measure(estimator: *mut fsb_rotation_t, angle: *const f32) -> fsb_status_t {
+    any::measure(estimator, angle)
+}
+
+/// Takes the torques [N m] held over the control period that begins now, once a tick. Give what the actuators
+/// really do (saturated, and with their lag where it is known).
+///
+/// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before
+/// the first measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded
+/// work.
+/// cbindgen:ptrs-as-arrays=[[input;3]]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_apply(estimator: *mut fsb_rotation_t, input: *const f32) -> fsb_status_t {
+    any::apply(estimator, input)
+}
+
+/// As fsb_rotation_apply, for an input that goes linearly from `from` to `to` over the control period.
+/// cbindgen:ptrs-as-arrays=[[from;3], [to;3]]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_apply_ramp(
+    estimator: *mut fsb_rotation_t,
+    from: *const f32,
+    to: *const f32,
+) -> fsb_status_t {
+    any::apply_ramp(estimator, from, to)
+}
+
+/// Hands out the three states at the present control instant, predicted from the last measurement with what was
+/// applied since. What is not valid is NaN and its `status` says why.
+///
+/// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED; `state` holds NaN then, where it can be
+/// written. For the tick.
+/// cbindgen:ptrs-as-arrays=[[state;3]]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_states(
+    estimator: *const fsb_rotation_t,
+    state: *mut fsb_state_t,
+) -> fsb_status_t {
+    any::states(estimator, state)
+}
+
+/// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known.
+/// Errors as fsb_rotation_states. Uses square roots: for logs, not for the tick.
+/// cbindgen:ptrs-as-arrays=[[sd;3]]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_state_sd(
+    estimator: *const fsb_rotation_t,
+    sd: *mut fsb_state_sd_t,
+) -> fsb_status_t {
+    any::state_sd(estimator, sd)
+}
+
+/// Hands out the three parameters 1/inertia. What is not valid is NaN and its `status` says why. Errors as
+/// fsb_rotation_states. For the tick; for mass or inertia in SI units and standard deviations see
+/// fsb_parameter_report.
+/// cbindgen:ptrs-as-arrays=[[parameter;3]]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_parameters(
+    estimator: *const fsb_rotation_t,
+    parameter: *mut fsb_parameter_t,
+) -> fsb_status_t {
+    any::parameters(estimator, parameter)
+}
+
+/// Hands out what was missed or rejected. Errors as fsb_rotation_states; the counters are zero then. For the tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_counters(
+    estimator: *const fsb_rotation_t,
+    counters: *mut fsb_counters_t,
+) -> fsb_status_t {
+    any::counters(estimator, counters)
+}
+
+/// Hands out inner signals, for logs and tests. Errors as fsb_rotation_states. Not for the tick: divisions.
+/// cbindgen:ptrs-as-arrays=[[diagnostics;3]]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_rotation_diagnostics(
+    estimator: *const fsb_rotation_t,
+    diagnostics: *mut fsb_diagnostics_t,
+) -> fsb_status_t {
+    any::diagnostics(estimator, diagnostics)
+}
