@@ -5,6 +5,7 @@ mod hygiene;
 mod licences;
 mod lints;
 mod metadata;
+mod numbers;
 mod setup;
 mod spdx;
 mod steps;
@@ -37,7 +38,7 @@ fn select(arguments: &[String]) -> Result<Option<Vec<&'static Step>>, String> {
         return Ok(None);
     }
     let mut chosen = Vec::new();
-    for argument in arguments {
+    for argument in arguments.iter().filter(|argument| *argument != "--write") {
         match STEPS.iter().find(|step| step.name == argument) {
             Some(step) => chosen.push(step),
             None if argument == "test" => chosen.extend(STEPS),
@@ -52,6 +53,7 @@ fn help() -> String {
     for step in STEPS {
         text += &format!("  {:<9} {}\n", step.name, step.about);
     }
+    text += "\n  --write   write what a step would only compare: the numbers in the documentation\n";
     text
 }
 
@@ -68,6 +70,7 @@ mod tests {
     fn test_is_every_step_and_a_name_is_one() {
         assert_eq!(names(&["test"]).unwrap().unwrap().len(), STEPS.len());
         assert_eq!(names(&["doc", "fmt"]).unwrap().unwrap(), ["doc", "fmt"]);
+        assert_eq!(names(&["numbers", "--write"]).unwrap().unwrap(), ["numbers"]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
-use crate::{hygiene, licences, lints, setup, suite, target};
+use crate::{hygiene, licences, lints, numbers, setup, suite, target};
 
 /// One step of the gate.
 #[derive(Debug)]
@@ -26,6 +26,7 @@ pub const STEPS: &[Step] = &[
     Step { name: "clippy", about: "lints, all targets and features, warnings denied", run: lints::clippy },
     Step { name: "target", about: "the core on thumbv7em with every feature combination", run: target::run },
     Step { name: "doc", about: "documentation, warnings denied", run: lints::doc },
+    Step { name: "numbers", about: "the numbers and links in the documentation", run: numbers::run },
     Step { name: "suite", about: "cargo test on the whole workspace", run: suite::run },
 ];
 
