@@ -1,3 +1,4 @@
 //! Shared by the tests of this package.
 
+pub mod analytic;
 pub mod flight;

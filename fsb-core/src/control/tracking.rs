@@ -8,9 +8,9 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TrackingConfig {
-    /// K_P of (12) (1/s²); positive.
+    /// K_P of (12) (1/s²); positive, 1e-15..=1e15.
     pub kp: f64,
-    /// K_D of (12) (1/s); positive.
+    /// K_D of (12) (1/s); positive, 1e-15..=1e15.
     pub kd: f64,
     /// Known drift c of the axis (m/s² or rad/s²), -g on a vertical axis that points up; the input makes up for it.
     pub drift: f64,
@@ -18,6 +18,11 @@ pub struct TrackingConfig {
     pub parameter_min: f64,
     /// The largest parameter that the controller divides by.
     pub parameter_max: f64,
+}
+
+/// A positive gain that f32 can hold.
+fn gain(name: &'static str, value: f64) -> Result<f32, ConfigError> {
+    if (1e-15..=1e15).contains(&positive(name, value)?) { Ok(value as f32) } else { Err(ConfigError::OutOfRange(name)) }
 }
 
 /// What the axis shall do now.
@@ -82,9 +87,13 @@ impl TrackingController {
             }
         }
         Ok(Self {
-            kp: positive("kp", config.kp)? as f32,
-            kd: positive("kd", config.kd)? as f32,
-            drift: finite("drift", config.drift)? as f32,
+            kp: gain("kp", config.kp)?,
+            kd: gain("kd", config.kd)?,
+            drift: if finite("drift", config.drift)?.abs() <= 1e6 {
+                config.drift as f32
+            } else {
+                return Err(ConfigError::OutOfRange("drift"));
+            },
             min: min as f32,
             max: config.parameter_max as f32,
         })

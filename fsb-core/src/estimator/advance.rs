@@ -8,7 +8,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The quick way: everybody measured, gains that hardly change.
     #[inline(always)]
     pub(super) fn advance_steadily(&mut self, y: &[f32; N]) {
-        self.observer.count = self.observer.count.saturating_add(1);
+        self.observer.tick();
         self.substep = 0;
         let gains = self.observer.gains;
         if self.design.common.block_length == 1 {
@@ -33,17 +33,24 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The general way.
     #[inline(never)]
     pub(super) fn advance(&mut self, mut y: [f32; N]) {
+        let limit = self.design.common.position_limit;
+        let complete = y.iter().all(|y| y.abs() <= limit);
+        if !self.started && !complete {
+            self.count_missing(&y);
+            return;
+        }
         let m1 = self.observer.gains.m1();
         let mut gains = self.observer.gains;
         if self.started {
-            self.observer.count = self.observer.count.saturating_add(1);
+            self.observer.tick();
             if !self.observer.striding {
                 gains = self.observer.next(&self.design.common);
             }
         }
         self.started = true;
         self.substep = 0;
-        if !(self.all_measured && y.iter().all(|y| y.abs() <= self.design.common.position_limit)) {
+        if !(self.steady && complete) {
+            self.count_missing(&y);
             self.repair_positions(&mut y, m1);
         }
         for (axis, &y) in self.axes.iter_mut().zip(&y) {
@@ -62,7 +69,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             let next = position + 1;
             self.identifier.position = if next == self.design.common.block_length { 0 } else { next };
         }
-        self.steady = self.all_measured && self.observer.striding && identifying;
+        self.steady = complete && self.all_measured && self.observer.striding && identifying;
     }
 
     /// Blocks of one sample.
@@ -141,7 +148,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     fn turn_gains(&mut self) {
         if self.observer.striding {
             self.observer.renew(&self.design.common);
-        } else {
+        } else if !self.design.common.schedule.unhurried {
             self.observer.settle();
         }
         if self.design.common.schedule.round > 32 {
@@ -156,10 +163,30 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     fn serve(&mut self, index: usize) {
         let common = &self.design.common;
         let parameter_index = EstimatorDesign::<N, P>::parameter_of(index);
+        let (Some(axis), Some(parameter), Some(rule)) =
+            (self.axes.get_mut(index), self.parameters.get_mut(parameter_index), self.design.rule.get(parameter_index))
+        else {
+            return;
+        };
+        axis.observer.fold();
+        if common.block_length == 1 {
+            axis.cascade.fold();
+        }
+        if !parameter.stale && axis.source == Source::Identified && parameter.read_on(rule) {
+            axis.model.follow(parameter.newest_value(), common.period2);
+        } else {
+            self.serve_carefully(index);
+        }
+    }
+
+    /// The same, where the variance has to be read or the status or the source of the prediction may change.
+    #[inline(never)]
+    fn serve_carefully(&mut self, index: usize) {
+        let common = &self.design.common;
+        let parameter_index = EstimatorDesign::<N, P>::parameter_of(index);
         let (Some(own), Some(parameter)) = (self.design.own(index), self.parameters.get_mut(parameter_index)) else {
             return;
         };
-        let settled = self.observer.count - self.identifier.began >= common.parameter_settle;
         if parameter.stale {
             let per_stride = common.covariance.per_stride;
             let mut variance = Some(0.0);
@@ -171,13 +198,22 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             parameter.read_variance(variance, common.identifier.scale2());
         }
         let Some(axis) = self.axes.get_mut(index) else { return };
-        axis.observer.fold();
-        if common.block_length == 1 {
-            axis.cascade.fold();
-        }
+        let settled = self.observer.count - self.identifier.began >= common.parameter_settle;
         parameter.read(settled, own.rule);
         let clocks = Clocks { identifier: &self.identifier, observer: &self.observer };
         axis.follow(parameter, &own, clocks, common);
+    }
+
+    fn count_missing(&mut self, y: &[f32; N]) {
+        for y in y {
+            if y.abs() <= self.design.common.position_limit {
+                continue;
+            }
+            self.counters.missed = self.counters.missed.saturating_add(1);
+            if !y.is_nan() {
+                self.counters.rejected_measurements = self.counters.rejected_measurements.saturating_add(1);
+            }
+        }
     }
 
     /// First measurements, missing ones, and ones that cannot be right.
@@ -187,6 +223,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         self.all_measured = true;
         for (index, (axis, y)) in self.axes.iter_mut().zip(y.iter_mut()).enumerate() {
             if y.abs() <= common.position_limit {
+                axis.gap = 0;
                 if !axis.measured {
                     axis.measured = true;
                     axis.observer.start(*y);
@@ -199,14 +236,12 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
                         let clocks = Clocks { identifier: &self.identifier, observer: &self.observer };
                         axis.change_source(parameter, &own, clocks, common);
                     }
+                    axis.decide_use();
                 }
                 continue;
             }
-            self.counters.missed = self.counters.missed.saturating_add(1);
-            if !y.is_nan() {
-                self.counters.rejected_measurements = self.counters.rejected_measurements.saturating_add(1);
-            }
             axis.missed = axis.missed.saturating_add(1);
+            axis.gap = axis.gap.saturating_add(1);
             let predicted = axis.observer.predict(axis.moments, &axis.model, m1);
             if axis.measured && predicted.abs() <= common.position_limit {
                 *y = predicted;
@@ -215,6 +250,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
                 axis.measured = false;
                 axis.present = false;
                 axis.observer.start(0.0);
+                axis.decide_use();
                 *y = 0.0;
             }
             self.all_measured &= axis.measured;

@@ -60,8 +60,12 @@ pub(super) struct Axis {
     pub noise: NoiseLevel,
     /// The measurement count from which on the state may be handed out, if there is something to predict it with.
     pub settled_at: u32,
+    /// The same, or out of reach where there is nothing to predict it with.
+    pub usable_at: u32,
     /// Measurements replaced in the block in progress.
     pub missed: u16,
+    /// Measurements replaced since the last one that came.
+    pub gap: u16,
     pub source: Source,
     /// Measured at least once, and not lost since.
     pub measured: bool,
@@ -74,7 +78,13 @@ pub(super) struct Axis {
 impl Axis {
     /// Before the first measurement.
     pub fn start(noise: NoiseLevel) -> Self {
-        Self { noise, ..Self::default() }
+        Self { noise, usable_at: u32::MAX, ..Self::default() }
+    }
+
+    /// To be called when the source, `settled_at` or `measured` has changed.
+    pub fn decide_use(&mut self) {
+        let usable = self.measured && matches!(self.source, Source::Identified | Source::Nominal);
+        self.usable_at = if usable { self.settled_at } else { u32::MAX };
     }
 
     /// The observer's step with a measurement, or with what stands in for it.
@@ -139,8 +149,8 @@ impl Axis {
         let z0 = self.cascade.z0();
         // The window is zero in the first two blocks; a block of predictions alone says nothing that was not known.
         if clock.blocks > 2 && u32::from(self.missed) < common.block_length {
-            parameter.ratio.add(common.readout, z2, z0, common.forgetting);
-            if clock.stride == own.coarse_slot {
+            let informative = parameter.ratio.add(common.readout, z2, z0, common.forgetting);
+            if informative && clock.stride == own.coarse_slot {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         }
@@ -159,20 +169,19 @@ impl Axis {
     ) {
         let covariance = &common.covariance;
         // The covariance of the cascade is that of a filled one from its third step on.
-        if let Some(k) = parameter.newest()
-            && clock.blocks > 2 * covariance.steps
-        {
+        if clock.blocks > 2 * covariance.steps {
             let step = self.observer.innovation() - self.innovation_before;
-            let residual = z2 - k * z0;
+            // With the quotient of this very moment: the one read last may be from before the take-off.
+            let residual = z2 - parameter.ratio.quotient() * z0;
             self.noise.add(
                 step * step * common.innovation_to_mean,
                 covariance.stride * (residual * residual) / (clock.shape.variance() * common.identifier.scale2()),
             );
         }
-        let (w, _) = weight(common.readout, z2, z0);
-        let added = self.cross.step(covariance.stride * w, &clock.shape, covariance);
-        self.noise_sum.add_folded(added - common.noise_forgetting * self.noise_sum.value());
-        parameter.stale = true;
+        let (up, down) = weight(common.readout, z2, z0);
+        let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
+        self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
+        parameter.step_coarsely(covariance.stride * down * z0, covariance.forgetting);
     }
 
     /// σ² var a, this axis's share of the variance of the numerator of k̂; `None` while the noise level is not known.
@@ -195,6 +204,11 @@ impl Axis {
 
     #[inline(never)]
     pub fn change_source(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
+        self.choose_source(parameter, own, clocks, common);
+        self.decide_use();
+    }
+
+    fn choose_source(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
         let (k, source) = if let Some(k) = parameter.valid_value() {
             if self.present && !self.seed(k, own, clocks, common) {
                 return;
@@ -241,6 +255,8 @@ impl Axis {
             moments: self.moments,
             innovation_before: self.innovation_before,
             settled_at: self.settled_at,
+            usable_at: self.usable_at,
+            gap: self.gap,
             source: self.source,
             measured: self.measured,
             ..Self::start(noise)

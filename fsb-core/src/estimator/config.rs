@@ -15,7 +15,7 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     /// (λT below about 1e-3): cheaper, and no less accurate. The axes take turns within the block.
     pub block: u32,
     /// Measurements by which the identifier starts later than the observer, so that several estimators on one processor do
-    /// not complete their blocks in the same tick. Below `block`.
+    /// not complete their blocks in the same tick: 0 for one, N + 1 for the other. Below `block`, or below 8.
     pub turn: u32,
     /// λ and q of the identifier.
     pub identifier: Tuning,

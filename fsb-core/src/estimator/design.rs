@@ -45,10 +45,8 @@ pub(super) struct Common {
     /// What turns the squared step of the innovation into the variance of a block's mean.
     pub innovation_to_mean: f32,
     pub readout: Readout,
-    /// 1 - μ over a block
+    /// 1 - μ over a block, for one of the axes that share a parameter: together they forget what τ says
     pub forgetting: f32,
-    /// 1 - μ² over a coarse step
-    pub noise_forgetting: f32,
     pub noise: NoiseLevel,
     pub any_drift: bool,
     /// T²
@@ -143,7 +141,9 @@ impl Common {
         let step = checked_period("block", period * f64::from(config.block))?;
         let decay = config.identifier.decay(step, "identifier.lambda", "identifier.q")?;
         let forgetting = config.memory.forgetting(step)?;
-        let covariance = CovarianceDesign::new(config.identifier.lambda, config.identifier.q, step, forgetting);
+        let sharing = if P == 1 { N as u32 } else { 1 };
+        let covariance =
+            CovarianceDesign::new(config.identifier.lambda, config.identifier.q, step, forgetting, sharing);
         let noise = match config.noise_sd {
             None => NoiseLevel::default(),
             Some(sd) if positive("noise_sd", sd)? > 1e6 || sd < 1e-12 => {
@@ -166,8 +166,7 @@ impl Common {
             block: BlockDesign::new(config.block),
             innovation_to_mean: (1.0 / innovation) as f32,
             readout: config.readout,
-            forgetting: forgetting as f32,
-            noise_forgetting: covariance.noise_forgetting(),
+            forgetting: (1.0 - libm::pow(1.0 - forgetting, 1.0 / f64::from(sharing))) as f32,
             covariance,
             noise,
             any_drift: config.drift.iter().any(|&c| c != 0.0),

@@ -65,7 +65,7 @@ pub struct Counters {
     pub missed: u32,
     /// Measurements that were not finite or beyond the limit; treated as missed.
     pub rejected_measurements: u32,
-    /// Inputs that were not finite or beyond the limit; the last good input of the axis was used in their place.
+    /// Inputs that were not finite or beyond the limit; the axis's mean input of late was used in their place.
     pub rejected_inputs: u32,
 }
 

@@ -21,26 +21,26 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The states at the present control instant that may be used: predicted from the last measurement instant with what
     /// was applied since.
     pub fn states(&self) -> [Option<AxisState>; N] {
+        let (gains, count) = (&self.observer.gains, self.observer.count);
+        let per_period = self.design.common.observer.per_period;
+        if self.substep == 0 {
+            return self.axes.each_ref().map(|axis| {
+                (count >= axis.usable_at).then(|| AxisState {
+                    position: axis.observer.position(0.0, gains),
+                    velocity: axis.observer.t_velocity() * per_period,
+                })
+            });
+        }
         // Time since the last measurement instant over T.
         let t = self.substep as f32 * self.design.common.substep_share;
+        let half_t2 = 0.5 * t * t;
         self.axes.each_ref().map(|axis| {
-            let usable = matches!(axis.source, Source::Identified | Source::Nominal);
-            if !usable || !axis.measured || self.observer.count < axis.settled_at {
-                return None;
-            }
-            let w = axis.observer.t_velocity();
-            let (ahead, step) = if self.substep == 0 {
-                (0.0, 0.0)
-            } else {
-                let model = &axis.model;
-                (
-                    t * w + model.k_t2 * axis.moments.j2 + model.c_t2 * (0.5 * t * t),
-                    model.k_t2 * axis.moments.j1 + model.c_t2 * t,
-                )
-            };
-            Some(AxisState {
-                position: axis.observer.position(ahead, &self.observer.gains),
-                velocity: (w + step) * self.design.common.observer.per_period,
+            (count >= axis.usable_at).then(|| {
+                let (w, model, input) = (axis.observer.t_velocity(), &axis.model, &axis.moments);
+                AxisState {
+                    position: axis.observer.position(t * w + model.k_t2 * input.j2 + model.c_t2 * half_t2, gains),
+                    velocity: (w + model.k_t2 * input.j1 + model.c_t2 * t) * per_period,
+                }
             })
         })
     }
@@ -57,7 +57,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     }
 
     /// Standard deviations of the states at the last measurement instant that measurement noise causes, where the noise
-    /// level is known. The parameter's own uncertainty is not in them. Good to a few per cent; for reports, not for the tick.
+    /// level is known. The parameter's own uncertainty is not in them, nor are measurements that were missed before the last
+    /// one that came. Good to a few per cent otherwise; for reports, not for the tick.
     pub fn state_sd(&self) -> [Option<AxisState>; N] {
         let (tuning, period) = (self.design.common.observer_tuning, self.design.common.measurement_period);
         let gain = NoiseGain::at_sample(self.observer.count, tuning, period);
@@ -65,7 +66,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             // Means over M samples have an M-th of the variance.
             let variance = axis.noise.measurement_variance() * self.design.common.block_length as f32;
             (axis.noise.is_known() && axis.measured).then(|| AxisState {
-                position: libm::sqrtf(variance * gain.position()),
+                position: libm::sqrtf(variance * gain.position_after(axis.gap)),
                 velocity: libm::sqrtf(variance * gain.velocity(&self.design.common.observer)),
             })
         })

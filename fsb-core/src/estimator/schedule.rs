@@ -1,9 +1,9 @@
 //! Which measurement does what, so that no tick carries everything.
 //!
 //! Within a round of measurements (a block; eight where blocks are single samples) every axis has its turn, one sample
-//! after the other; the identifier's weights and the observer's gains have theirs. An estimator with another `turn` has all
-//! of that so many measurements later: with blocks of ten (or single samples) and three axes each, turns 0 and 3 make two
-//! estimators that never have a turn in the same tick.
+//! after the other, and then the identifier's weights and the observer's gains have theirs. An estimator with another `turn`
+//! has all of that so many measurements later: two estimators of N axes with turns 0 and N + 1 never have a turn in the same
+//! tick where a round is at least 2 (N + 1) measurements.
 
 /// Measurements within a round.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub(super) struct Schedule {
     pub gains_at: u32,
     /// A bit for each measurement of a round (modulo 32) in which somebody has a turn.
     pub events: u32,
-    /// Blocks of one: whether every axis is served at every measurement.
+    /// There is time enough: the gains are renewed at every measurement, and with blocks of one every axis is served.
     pub unhurried: bool,
     /// Blocks of one: whether the axes take their coarse steps one after the other.
     pub staggered: bool,
@@ -35,14 +35,12 @@ impl Schedule {
     pub fn new(axes: u32, block: u32, turn: u32, period: f64, coarse_steps: u32) -> Self {
         let round = if block == 1 { 8 } else { block };
         let gains_every = if round <= 16 { round } else { 16 };
-        let weights_at = (axes + 2).min(block - 1);
-        // Blocks of ten: axes at 9, 0, 1 and 2, 3, 4 for a turn of 3; weights at 5 and 8; 7 and 6 are left.
-        // Single samples: axes at 0, 1, 2 and 3, 4, 5; 6 and 7 are left.
-        let gains_at = match (block, turn) {
-            (1, 0) => 6,
-            (1, turn) => (15 - turn % 8) % 8,
-            (_, 0) => round.saturating_sub(3),
-            (_, turn) => (2 * round - 4 - turn % round) % round.max(1),
+        // Where the last axis begins its block nobody completes one.
+        let shared_at = (axes - 1).min(block - 1);
+        let weights_at = shared_at;
+        let gains_at = match block {
+            1 => axes % 8,
+            _ => shared_at,
         };
         let mut events = 0_u32;
         if round > 16 {

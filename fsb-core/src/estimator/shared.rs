@@ -11,7 +11,7 @@ use crate::window::Window;
 pub(super) struct ObserverClock {
     window: Window,
     pub gains: Gains,
-    /// Measurement instants since the first one; saturates.
+    /// Measurement instants since the first one; saturates below the largest number, which stands for never.
     pub count: u32,
     /// Measurements until the gains are renewed, where a round is longer than that.
     until: u32,
@@ -25,11 +25,19 @@ impl ObserverClock {
 
     pub const START: Self = Self { window: Window::START, gains: Gains::FIRST, count: 0, until: 0, striding: false };
 
+    /// One more measurement instant.
+    #[inline(always)]
+    pub const fn tick(&mut self) {
+        if self.count < u32::MAX - 1 {
+            self.count += 1;
+        }
+    }
+
     /// The gains of the next of the first measurements.
     pub fn next(&mut self, common: &Common) -> Gains {
         self.window.step(&common.observer.window);
         // The very first at once, then in turns with an estimator that has another turn.
-        if self.count < 4 || (self.count ^ common.schedule.turn) & 1 == 0 {
+        if self.count < 4 || common.schedule.unhurried || (self.count ^ common.schedule.turn) & 1 == 0 {
             Gains::at(&self.window, &common.observer)
         } else {
             self.gains

@@ -7,10 +7,17 @@ use crate::moments::InputMoments;
 impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The positions at the present measurement instant; `None` for an axis whose measurement is missing.
     ///
+    /// The estimator starts at the first instant at which every axis is measured; what comes before only counts.
+    ///
     /// # Errors
     /// [`OutOfStep`] where fewer than `substeps` inputs were applied since the last instant; nothing has changed then.
     pub fn measure(&mut self, positions: &[Option<f32>; N]) -> Result<(), OutOfStep> {
-        self.measure_raw(&positions.map(|y| y.unwrap_or(f32::NAN)))
+        // A number that is none is a rejected measurement, not a missing one.
+        self.measure_raw(&positions.map(|y| match y {
+            Some(y) if y.is_nan() => f32::INFINITY,
+            Some(y) => y,
+            None => f32::NAN,
+        }))
     }
 
     /// As [`measure`](Self::measure), a missing measurement being NaN.

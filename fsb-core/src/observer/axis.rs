@@ -30,6 +30,12 @@ impl Model {
         let t2 = design.period * design.period;
         Self { k_t2: k * t2, c_t2: c * t2 }
     }
+
+    /// The same with another k; `period2` is T².
+    #[inline(always)]
+    pub(crate) fn follow(&mut self, k: f32, period2: f32) {
+        self.k_t2 = k * period2;
+    }
 }
 
 /// Position and velocity of one axis. The position is exact to the rounding of the measurement.

@@ -42,6 +42,12 @@ impl NoiseGain {
         self.yy
     }
 
+    /// The same `missed` periods later, nothing having been measured since.
+    pub fn position_after(&self, missed: u16) -> f32 {
+        let n = f32::from(missed);
+        self.yy + n * (2.0 * self.yv + n * self.vv)
+    }
+
     /// Variance of v̂ over the variance of the measurement noise, in 1/s².
     pub fn velocity(&self, design: &ObserverDesign) -> f32 {
         self.vv * (design.per_period * design.per_period)

@@ -6,9 +6,11 @@
 //!
 //! var a ← μ² var a + 2 μ ω (A q)₁ + ω² P₁₁,   q ← μ A q + ω P e₁,   std(k̂)² = σ² var a / (Σ ω ẑ0)².
 //!
+//! The last sum is taken at the same steps as the others: what a coarse step makes of a growing signal is then the same
+//! above and below.
+//!
 //! The recursion runs every D-th identifier step, where λ D T is still small: averaging the noise over D samples and
-//! weighing the mean D-fold is the same filter at a coarser step (design, section 11). The result is the exact variance
-//! up to terms of the order (λ D T)².
+//! weighing the mean D-fold is the same filter at a coarser step (design, section 11).
 
 use crate::identifier::{Coefficients, IdentifierDesign};
 use crate::tuning::Decay;
@@ -31,17 +33,22 @@ pub(crate) struct CovarianceDesign {
     /// 1/D
     pub per_stride: f32,
     /// μ over D steps
-    pub mu: f32,
+    mu: f32,
+    /// 1 - μ² over D steps
+    pub noise_forgetting: f32,
+    /// 1 - μ over D steps, for one of the axes that share a parameter
+    pub forgetting: f32,
 }
 
 impl CovarianceDesign {
-    /// λ D T is kept at about this; steps of more than half of it are taken as they are.
-    const COARSE: f64 = 0.05;
+    /// λ D T is kept at about this; steps of more than half of it, or so, are taken as they are.
+    const COARSE: f64 = 0.08;
 
-    /// For an identifier with the rates `lambda` and `q` at `period`, with the share `forgetting` forgotten in each step.
-    pub fn new(lambda: f64, q: f64, period: f64, forgetting: f64) -> Self {
+    /// For an identifier with the rates `lambda` and `q` at `period`, with the share `forgetting` forgotten in each step
+    /// by each of the `sharing` axes of a parameter.
+    pub fn new(lambda: f64, q: f64, period: f64, forgetting: f64, sharing: u32) -> Self {
         let strides = Self::COARSE / (libm::fmax(lambda, q) * period);
-        let stride = if strides > 2.0 { libm::round(strides) } else { 1.0 };
+        let stride = if strides >= 1.75 { libm::round(strides) } else { 1.0 };
         let coarse = stride * period;
         let (c, alpha) = (-libm::expm1(-lambda * coarse), -libm::expm1(-q * coarse));
         let decay = Decay { period: coarse, c, p: 1.0 - c, alpha, rho: 1.0 - alpha };
@@ -56,12 +63,9 @@ impl CovarianceDesign {
             stride: stride as f32,
             per_stride: (1.0 / stride) as f32,
             mu: libm::pow(1.0 - forgetting, stride) as f32,
+            noise_forgetting: (1.0 - libm::pow(1.0 - forgetting, 2.0 * stride)) as f32,
+            forgetting: (1.0 - libm::pow(1.0 - forgetting, stride / f64::from(sharing))) as f32,
         }
-    }
-
-    /// 1 - μ² over a coarse step.
-    pub fn noise_forgetting(&self) -> f32 {
-        1.0 - self.mu * self.mu
     }
 
     /// A x, A = [[p, cp, c²p], [0, p, cp], [0, 0, p]].

@@ -1,6 +1,7 @@
 //! k with its variance, and the rule by which it may be used.
 
 use super::ratio::Ratio;
+use crate::accumulator::Accumulator;
 use crate::error::{ConfigError, finite, positive};
 use core::fmt;
 
@@ -78,23 +79,31 @@ impl Default for ParameterRule {
 
 impl CheckedRule {
     /// Accepts nothing.
-    pub const NEVER: Self = Self { min: f32::MAX, max: 0.0, relative_variance: 0.0 };
+    pub const NEVER: Self = Self { min: f32::MAX, max: 0.0, relative_variance: 0.0, limit_to_stay: 0.0 };
 }
 
 impl ParameterRule {
     pub(crate) fn checked(&self) -> Result<CheckedRule, ConfigError> {
-        let min = positive("parameter.min", self.min)?;
-        if finite("parameter.max", self.max)? <= min {
-            return Err(ConfigError::InvertedRange("parameter.min"));
+        let min = positive("rule.min", self.min)?;
+        if finite("rule.max", self.max)? <= min {
+            return Err(ConfigError::InvertedRange("rule.min"));
         }
-        let share = positive("parameter.max_relative_sd", self.max_relative_sd)?;
-        if !(1e-15..=1e15).contains(&min) || !(1e-15..=1e15).contains(&self.max) {
-            return Err(ConfigError::OutOfRange("parameter.min, parameter.max"));
+        let share = positive("rule.max_relative_sd", self.max_relative_sd)?;
+        for (name, value) in [("rule.min", min), ("rule.max", self.max)] {
+            if !(1e-15..=1e15).contains(&value) {
+                return Err(ConfigError::OutOfRange(name));
+            }
         }
-        if share > 1e6 {
-            return Err(ConfigError::OutOfRange("parameter.max_relative_sd"));
+        if !(1e-15..=1e6).contains(&share) {
+            return Err(ConfigError::OutOfRange("rule.max_relative_sd"));
         }
-        Ok(CheckedRule { min: min as f32, max: self.max as f32, relative_variance: (share * share) as f32 })
+        let relative_variance = (share * share) as f32;
+        Ok(CheckedRule {
+            min: min as f32,
+            max: self.max as f32,
+            relative_variance,
+            limit_to_stay: HYSTERESIS * relative_variance,
+        })
     }
 }
 
@@ -105,6 +114,8 @@ pub(crate) struct CheckedRule {
     min: f32,
     max: f32,
     relative_variance: f32,
+    /// The same for a parameter that is valid already.
+    limit_to_stay: f32,
 }
 
 /// One parameter: its sums, pooled over the axes that share it, and what has been read out of them.
@@ -118,6 +129,8 @@ pub(crate) struct ParameterState {
     credible: bool,
     /// A coarse step has been taken since the variance was read.
     pub stale: bool,
+    /// Σ ω ẑ0 over the coarse steps.
+    information: Accumulator,
 }
 
 impl ParameterState {
@@ -130,11 +143,13 @@ impl ParameterState {
         read: false,
         credible: false,
         stale: false,
+        information: Accumulator::ZERO,
     };
 
-    /// The newest quotient, valid or not: for prediction in place of a missed sample, and for residuals.
-    pub fn newest(&self) -> Option<f32> {
-        if self.read { Some(self.value) } else { None }
+    /// A coarse step of one of its axes: `added` is what it adds to Σ ω ẑ0.
+    pub fn step_coarsely(&mut self, added: f32, forgetting: f32) {
+        self.information.add_folded(added - forgetting * self.information.value());
+        self.stale = true;
     }
 
     /// The newest quotient, where it is in range and its standard deviation is below its value.
@@ -163,7 +178,7 @@ impl ParameterState {
     /// identifier's scale.
     pub fn read_variance(&mut self, numerator: Option<f32>, scale2: f32) {
         self.stale = false;
-        let information = self.ratio.denominator();
+        let information = self.information.value();
         if let Some(variance) = numerator
             && information > 0.0
         {
@@ -173,20 +188,34 @@ impl ParameterState {
         }
     }
 
-    /// The quotient from the sums as they are, and its status. Folds the sums.
+    /// The newest quotient; zero before there is any.
     #[inline(always)]
-    pub fn read(&mut self, settled: bool, rule: &CheckedRule) {
+    pub const fn newest_value(&self) -> f32 {
+        self.value
+    }
+
+    /// The quotient of a parameter that is valid and stays so. False where it has to be [`read`](Self::read) instead.
+    #[inline(always)]
+    pub fn read_on(&mut self, rule: &CheckedRule) -> bool {
         self.ratio.fold();
-        let information = self.ratio.denominator();
-        if information > 0.0 {
-            let value = self.ratio.numerator() / information;
+        let value = self.ratio.numerator_total() / self.ratio.denominator_total();
+        let limit = rule.limit_to_stay * (value * value);
+        let stays =
+            self.status == ParameterStatus::Valid && value >= rule.min && value <= rule.max && self.variance <= limit;
+        if stays {
             self.value = value;
+        }
+        stays
+    }
+
+    /// The quotient from the sums as they are, and its status.
+    pub fn read(&mut self, settled: bool, rule: &CheckedRule) {
+        if self.ratio.denominator() > 0.0 && self.read_on(rule) {
+            return;
+        }
+        if self.ratio.denominator() > 0.0 {
+            self.value = self.ratio.numerator() / self.ratio.denominator();
             self.read = true;
-            let limit = HYSTERESIS * rule.relative_variance * (value * value);
-            let stays = value >= rule.min && value <= rule.max && self.variance <= limit;
-            if stays && self.status == ParameterStatus::Valid {
-                return;
-            }
         }
         self.judge(settled, rule);
     }

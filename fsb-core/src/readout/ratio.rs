@@ -63,18 +63,20 @@ impl Ratio {
     /// No samples yet.
     pub const EMPTY: Self = Self { numerator: Accumulator::ZERO, denominator: Accumulator::ZERO };
 
-    /// Below this a sample holds no information (the input has been zero): the sums are left alone, and do not fade.
+    /// A ẑ0² below this holds no information (the input has been zero): the sums are left alone, and do not fade.
     const NOTHING: f32 = 1e-30;
 
-    /// Adds a sample of ẑ2 (known drift removed) and ẑ0. `forgetting` is 1 - e^(-T/τ). Cost: 9 operations; [`fold`](Self::fold) is due now and then.
+    /// Adds a sample of ẑ2 (known drift removed) and ẑ0, and returns whether it held any information. `forgetting` is
+    /// 1 - e^(-T/τ). Cost: 9 operations; [`fold`](Self::fold) is due now and then.
     #[inline(always)]
-    pub fn add(&mut self, readout: Readout, z2: f32, z0: f32, forgetting: f32) {
+    pub fn add(&mut self, readout: Readout, z2: f32, z0: f32, forgetting: f32) -> bool {
         let (up, down) = weight(readout, z2, z0);
-        let information = down * z0;
-        if information >= Self::NOTHING {
+        let informative = z0 * z0 >= Self::NOTHING;
+        if informative {
             self.numerator.add(up * z2 - forgetting * self.numerator.value());
-            self.denominator.add(information - forgetting * self.denominator.value());
+            self.denominator.add(down * z0 - forgetting * self.denominator.value());
         }
+        informative
     }
 
     /// Moves collected steps into totals.
@@ -82,6 +84,23 @@ impl Ratio {
     pub fn fold(&mut self) {
         self.numerator.fold();
         self.denominator.fold();
+    }
+
+    /// Σ ω ẑ2 / Σ ω ẑ0; not finite before there is information.
+    pub fn quotient(&self) -> f32 {
+        self.numerator.value() / self.denominator.value()
+    }
+
+    /// Σ ω ẑ2, right after folding.
+    #[inline(always)]
+    pub(crate) const fn numerator_total(&self) -> f32 {
+        self.numerator.total()
+    }
+
+    /// Σ ω ẑ0, right after folding.
+    #[inline(always)]
+    pub(crate) const fn denominator_total(&self) -> f32 {
+        self.denominator.total()
     }
 
     /// Σ ω ẑ2.
