@@ -12,6 +12,8 @@ pub enum Tolerance {
     LastDigit,
     /// By a third: the largest of many rounding errors hangs on single bits.
     Rounding,
+    /// By sixteen, which is two pixels of a figure.
+    Drawing,
 }
 
 /// Words, and numbers with the weight of their last digit.
@@ -45,10 +47,13 @@ fn same_line(a: &str, b: &str, tolerance: Tolerance) -> bool {
         && a.iter().zip(&b).all(|(a, b)| match (a, b) {
             (Piece::Number { value: a, unit: ua }, Piece::Number { value: b, unit: ub }) => {
                 let allowed = match tolerance {
+                    Tolerance::Drawing => 16.0,
+                    // Whole numbers are counts.
+                    _ if *ua >= 1.0 => 0.0,
                     Tolerance::Rounding => a.max(*b) / 3.0,
                     _ => 1.001 * ua.max(*ub),
                 };
-                a == b || (*ua < 1.0 && (a - b).abs() <= allowed)
+                (a - b).abs() <= allowed
             }
             _ => a == b,
         })
@@ -119,6 +124,12 @@ mod tests {
         assert!(equal("2.1e-7", "2.9e-7", Tolerance::Rounding));
         assert!(!equal("2.1e-7", "3.9e-7", Tolerance::Rounding));
         assert!(!equal("50", "60", Tolerance::Rounding));
+    }
+
+    #[test]
+    fn a_drawing_may_move_by_two_pixels() {
+        assert!(equal("<p points=\"542,564 734,564\"/>", "<p points=\"542,580 735,564\"/>", Tolerance::Drawing));
+        assert!(!equal("<p points=\"542,564\"/>", "<p points=\"542,581\"/>", Tolerance::Drawing));
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub const NAME: &str = "fig3.svg";
 pub fn update(fresh: &str, write: bool) -> Result<Option<String>> {
     let path = root()?.join(KEPT);
     let kept = fs::read_to_string(&path).unwrap_or_default();
-    let Some(difference) = same(&kept, fresh, Tolerance::LastDigit) else { return Ok(None) };
+    let Some(difference) = same(&kept, fresh, Tolerance::Drawing) else { return Ok(None) };
     if write {
         fs::write(&path, fresh).with_context(|| format!("cannot write {KEPT}"))?;
     }
