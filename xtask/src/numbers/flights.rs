@@ -7,7 +7,7 @@ use anyhow::Result;
 use super::measured::fsb;
 use super::tables::number;
 
-/// File, vehicle, mass on the scales [g].
+/// File, vehicle, mass on the scales in g.
 const FLIGHTS: [(&str, &str, &str); 4] = [
     ("crazyflie_brushless_37.0g", "Crazyflie, brushless", "37.0"),
     ("crazyflie_brushed_34.7g", "Crazyflie, brushed", "34.7"),
