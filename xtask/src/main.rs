@@ -6,6 +6,7 @@ mod hygiene;
 mod licences;
 mod lints;
 mod metadata;
+mod numbers;
 mod on_target;
 mod setup;
 mod spdx;
@@ -54,7 +55,7 @@ fn help() -> String {
     for step in STEPS {
         text += &format!("  {:<11} {}\n", step.name, step.about);
     }
-    text += "\n  --write   write what a step would only compare: the C header\n";
+    text += "\n  --write   write what a step would only compare: the C header, the numbers in the documentation\n";
     text
 }
 
@@ -72,6 +73,7 @@ mod tests {
         assert_eq!(names(&["test"]).unwrap().unwrap().len(), STEPS.len());
         assert_eq!(names(&["doc", "fmt"]).unwrap().unwrap(), ["doc", "fmt"]);
         assert_eq!(names(&["c", "--write"]).unwrap().unwrap(), ["c"]);
+        assert_eq!(names(&["numbers", "--write"]).unwrap().unwrap(), ["numbers"]);
     }
 
     #[test]

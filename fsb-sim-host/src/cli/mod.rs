@@ -5,6 +5,7 @@
 //! | `paper` | Section V with its table, figures and statistics; also what runs without arguments |
 //! | `replay` | a recorded flight through the core |
 //! | `efficiency` | the spread of k̂ against the Cramér-Rao bound |
+//! | `exactness` | what rounding to f32 leaves of the errors |
 //! | `soak` | hours of simulated flight beside the f64 twin |
 //!
 //! Results go to stdout, everything else to stderr. With `--json` stdout holds one JSON object and nothing else.
@@ -13,6 +14,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod efficiency;
+mod exactness;
 mod paper;
 mod replay;
 mod soak;
@@ -45,6 +47,8 @@ enum Command {
     #[command(after_help = EXIT_STATUS)]
     Efficiency(efficiency::Args),
     #[command(after_help = EXIT_STATUS)]
+    Exactness(exactness::Args),
+    #[command(after_help = EXIT_STATUS)]
     Soak(soak::Args),
 }
 
@@ -69,6 +73,7 @@ pub fn run() -> ExitCode {
         Command::Paper(args) => paper::run(&args),
         Command::Replay(args) => replay::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Efficiency(args) => efficiency::run(&args),
+        Command::Exactness(args) => exactness::run(&args),
         Command::Soak(args) => soak::run(&args),
     };
     match done {
