@@ -10,7 +10,7 @@
 //! | `trace` | ticks instruction by instruction |
 //! | `parity`, `cost`, `size`, `panics`, `disassembly`, `firmware`, `examples` | the steps |
 
-mod budgets;
+pub mod budgets;
 mod cycles;
 mod emulator;
 mod listing;
