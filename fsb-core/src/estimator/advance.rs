@@ -256,6 +256,11 @@ impl Parts<'_> {
                 *y = predicted;
             } else {
                 // Never measured, or predicted out of all bounds: lost until it is measured again.
+                if axis.present
+                    && let Some(parameter) = self.parameters.get_mut(self.each.parameter_of(index))
+                {
+                    parameter.leave();
+                }
                 axis.measured = false;
                 axis.present = false;
                 axis.observer.start(0.0);

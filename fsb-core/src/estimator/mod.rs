@@ -56,6 +56,9 @@ pub struct Estimator<const N: usize, const P: usize> {
 }
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
+    /// Axes to a parameter.
+    const SHARING: u8 = if P == 1 { N as u8 } else { 1 };
+
     /// Validates `config` and starts empty.
     ///
     /// # Errors
@@ -69,7 +72,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         Self {
             progress: Progress::start(&design.common),
             axes: [Axis::start(design.common.noise); N],
-            parameters: [ParameterState::START; P],
+            parameters: [ParameterState::start(Self::SHARING); P],
             design,
         }
     }
@@ -79,7 +82,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         let counters = self.progress.counters;
         self.progress = Progress { counters, ..Progress::start(&self.design.common) };
         self.axes = [Axis::start(self.design.common.noise); N];
-        self.parameters = [ParameterState::START; P];
+        self.parameters = [ParameterState::start(Self::SHARING); P];
     }
 
     /// Starts the identification anew (section III of the paper: "each reinitialization"), the observer going on. Until

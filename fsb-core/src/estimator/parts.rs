@@ -44,14 +44,17 @@ impl Parts<'_> {
         let next = if progress.started { progress.observer.count.saturating_add(1) } else { 0 };
         progress.identifier = IdentifierClock::start(next.saturating_add(self.common.schedule.turn));
         progress.steady = false;
+        let pooled = self.parameters.len() == 1;
+        let measured = self.axes.iter().filter(|axis| axis.measured).count();
+        let members = if pooled { measured as u8 } else { 1 };
         for parameter in self.parameters.iter_mut() {
-            *parameter = ParameterState::START;
+            *parameter = ParameterState::start(members);
         }
         let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };
         for (index, axis) in self.axes.iter_mut().enumerate() {
             axis.reset_identifier(self.common.noise);
             if let Some(own) = self.each.own(index) {
-                axis.change_source(&ParameterState::START, &own, clocks, self.common);
+                axis.change_source(&ParameterState::start(0), &own, clocks, self.common);
             }
         }
     }

@@ -127,15 +127,18 @@ pub(crate) struct ParameterState {
     pub status: ParameterStatus,
     read: bool,
     credible: bool,
-    /// A coarse step has been taken since the variance was read.
+    /// All its axes have taken a coarse step since the variance was read.
     pub stale: bool,
+    /// Axes that take part, and how many of them have taken the present coarse step.
+    members: u8,
+    stepped: u8,
     /// Σ ω ẑ0 over the coarse steps.
     information: Accumulator,
 }
 
 impl ParameterState {
     /// Nothing known: no quotient, and a variance above any limit.
-    pub const START: Self = Self {
+    const START: Self = Self {
         ratio: Ratio::EMPTY,
         value: 0.0,
         variance: f32::MAX,
@@ -143,13 +146,29 @@ impl ParameterState {
         read: false,
         credible: false,
         stale: false,
+        members: 1,
+        stepped: 0,
         information: Accumulator::ZERO,
     };
+
+    /// Nothing known, to be read out of so many axes.
+    pub const fn start(members: u8) -> Self {
+        Self { members, ..Self::START }
+    }
+
+    /// One of its axes no longer takes part.
+    pub fn leave(&mut self) {
+        self.members = self.members.saturating_sub(1);
+    }
 
     /// A coarse step of one of its axes: `added` is what it adds to Σ ω ẑ0.
     pub fn step_coarsely(&mut self, added: f32, forgetting: f32) {
         self.information.add_folded(added - forgetting * self.information.value());
-        self.stale = true;
+        self.stepped = self.stepped.saturating_add(1);
+        if self.stepped >= self.members {
+            self.stepped = 0;
+            self.stale = true;
+        }
     }
 
     /// The newest quotient, where it is in range and its standard deviation is below its value.
