@@ -27,7 +27,10 @@ pub struct Rotors {
 
 impl Rotors {
     pub fn new(config: &RotorConfig, thrust: f64) -> Self {
-        let mut rotors = Self { config: *config, level: [0.0; 6], target: [0.0; 6], decay: (0.0, 1.0) };
+        // Without a lag the thrusts are the commands to the last bit: no way through Ω.
+        let lag_on = if config.time_constant > 0.0 { config.lag_on } else { LagOn::Thrust };
+        let config = RotorConfig { lag_on, ..*config };
+        let mut rotors = Self { config, level: [0.0; 6], target: [0.0; 6], decay: (0.0, 1.0) };
         rotors.command(&[thrust; 6]);
         rotors.level = rotors.target;
         rotors
