@@ -218,6 +218,36 @@ fn quantisation_rounds_to_the_nearest_step() {
     assert!(norm(difference(euler, [0.1, -0.4, 2.0])) < 1e-14, "{euler:?}");
 }
 
+/// The faults have nothing to do with each other: of the half that is not dropped, sampling instants and latencies are uniform
+/// as ever, a tenth are outliers, and the two kinds of jitter are not correlated.
+#[test]
+fn faults_are_independent_of_each_other() {
+    let (rate, jitter) = (Some(10.0), 0.05);
+    let config = SensorConfig {
+        rate,
+        dropout: 0.5,
+        outlier: 0.1,
+        outlier_size: 1.0,
+        latency_jitter: jitter,
+        sampling_jitter: jitter,
+        ..Default::default()
+    };
+    let found: Vec<_> = arrivals(&config, 15, 2_000_000).into_iter().flatten().collect();
+    let n = found.len() as f64;
+    share_is(found.len(), 20_000, 0.5);
+    share_is(found.iter().filter(|m| m.outlier).count(), found.len(), 0.1);
+    let sd = jitter / 12_f64.sqrt();
+    let early: Vec<f64> = found.iter().map(|m| m.tick as f64 * TICK - m.taken_at).collect();
+    let late: Vec<f64> = found.iter().map(|m| m.age as f64 * TICK).collect();
+    for values in [&early, &late] {
+        let mean = Summary::of(values).mean;
+        assert!((mean - jitter / 2.0).abs() < Z * sd / n.sqrt(), "{mean}");
+    }
+    let products = early.iter().zip(&late).map(|(e, l)| (e - jitter / 2.0) * (l - jitter / 2.0));
+    let correlation = products.sum::<f64>() / (n * sd * sd);
+    assert!(correlation.abs() < Z / n.sqrt(), "{correlation}");
+}
+
 /// All faults at once: the same seed the same, another another; and a fault more leaves the draws of the others alone.
 #[test]
 fn a_seed_gives_its_measurements() {
