@@ -2,12 +2,14 @@
 //! f64 (`twin`), plants, the paper's Section V in closed loop, log replay and reports.
 
 pub mod exactness;
+pub mod hexarotor;
 pub mod paper_form;
 pub mod plant;
 pub mod progress;
 pub mod replay;
 pub mod report;
 pub mod section_v;
+pub mod sensors;
 pub mod soak;
 pub mod statistics;
 pub mod twin;
