@@ -4,6 +4,7 @@
 //! | file | what |
 //! |---|---|
 //! | `blocks` | finding and replacing what stands between the marks |
+//! | `budgets` | what a tick costs on the target |
 //! | `compare` | the same but for the last digit |
 //! | `examples` | the programs shown |
 //! | `figure` | the figure shown |
@@ -13,6 +14,7 @@
 //! | `tables` | that, as tables |
 
 mod blocks;
+mod budgets;
 mod compare;
 mod examples;
 mod figure;
@@ -79,6 +81,7 @@ fn content(block: &Block, measured: &Measured) -> Result<Option<(String, Toleran
         "efficiency" => Some((tables::efficiency(&measured.efficiency)?, Tolerance::LastDigit)),
         "exactness" => Some((tables::exactness(&measured.exactness, &|_| true)?, Tolerance::Rounding)),
         "exactness-short" => Some((tables::exactness(&measured.exactness, &tables::in_short)?, Tolerance::Rounding)),
+        "cost" => Some((budgets::table()?, Tolerance::None)),
         "flights" => flights::table()?.map(|table| (table, Tolerance::LastDigit)),
         "example-rust" => Some((examples::rust()?, Tolerance::None)),
         "example-c" => examples::c()?.map(|example| (example, Tolerance::None)),

@@ -22,7 +22,7 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     /// λ and q of the observer.
     pub observer: Tuning,
     /// Standard deviation of a measurement (m or rad), where it is known beforehand. It is used until enough samples have
-    /// been seen to learn it; without it k̂ cannot be valid in the first eight steps of the variance (each about 0.05/λ, or a block).
+    /// been seen to learn it; without it k̂ is not valid in the first 0.75/λ or so.
     pub noise_sd: Option<f64>,
     /// How k is read out.
     pub readout: Readout,

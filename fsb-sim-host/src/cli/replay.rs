@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 ///
 /// The axes x, y, z are pooled into one parameter, k = 1/m; roll, pitch and yaw each have their own, k = 1/I. There is no
 /// first guess: states are handed out from the moment k is valid, and k is valid once its standard deviation is known
-/// (eight steps of its variance, together 0.32/λ) and at most 5 % of k (10 % once valid), for k within 1e-6..1e9. Nothing
+/// (some 0.75/λ) and at most 5 % of k (10 % once valid), for k within 1e-6..1e9. Nothing
 /// is held back longer: on recorded flights the first pooled k that passes is as good as the one of half a second later.
 /// The standard deviation is that of measurement noise; what the model lacks, such as drag, comes on top of it.
 ///

@@ -41,7 +41,7 @@ const FINEST_STEP: f64 = 2e-3;
 impl ReplayOptions {
     /// When k̂ counts as valid: positive, 1e-6..=1e9, and sd(k̂)/k̂ at most 5 % (10 % once valid).
     ///
-    /// There is no ε on top. The variance of k̂ needs eight of its steps (together about 0.4/λ), which is one already; on
+    /// There is no ε on top. The variance of k̂ needs some 0.75/λ, which is one already; on
     /// recorded flights the pooled k̂ that this lets through first is no worse than the one of half a second later.
     pub fn rule() -> ParameterRule {
         ParameterRule { min: 1e-6, max: 1e9, max_relative_sd: 0.05 }
