@@ -4,6 +4,9 @@ use super::Estimator;
 use super::axis::{Clocks, Source};
 use super::parts::Parts;
 
+/// Counts of measurements are kept below about this: three days at 8 kHz.
+pub(super) const LONG_AGO: u32 = 1 << 31;
+
 impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The quick way: everybody measured, gains that hardly change.
     #[inline(always)]
@@ -151,6 +154,9 @@ impl Parts<'_> {
     }
 
     fn turn_gains(&mut self) {
+        if self.progress.observer.count >= LONG_AGO {
+            self.rebase();
+        }
         if self.progress.observer.striding {
             self.progress.observer.renew(self.common);
         } else if !self.common.schedule.unhurried {
@@ -160,6 +166,19 @@ impl Parts<'_> {
             for axis in self.axes.iter_mut() {
                 axis.observer.fold();
             }
+        }
+    }
+
+    /// Puts the origin of the counts later, so that they never reach their end: differences and what lies far back stay as
+    /// they are.
+    #[inline(never)]
+    fn rebase(&mut self) {
+        let by = LONG_AGO / 2;
+        self.progress.observer.count -= by;
+        self.progress.identifier.began = self.progress.identifier.began.saturating_sub(by);
+        for axis in self.axes.iter_mut() {
+            axis.settled_at = axis.settled_at.saturating_sub(by);
+            axis.decide_use();
         }
     }
 

@@ -25,6 +25,8 @@ mod readings;
 mod schedule;
 mod shared;
 mod step;
+#[cfg(test)]
+mod tests;
 
 pub use config::EstimatorConfig;
 pub use design::EstimatorDesign;

@@ -41,7 +41,7 @@ impl Progress {
 pub(super) struct ObserverClock {
     window: Window,
     pub gains: Gains,
-    /// Measurement instants since the first one; saturates below the largest number, which stands for never.
+    /// Measurement instants since the first one, or since a later origin once they are many.
     pub count: u32,
     /// Measurements until the gains are renewed, where a round is longer than that.
     until: u32,
@@ -58,9 +58,7 @@ impl ObserverClock {
     /// One more measurement instant.
     #[inline(always)]
     pub const fn tick(&mut self) {
-        if self.count < u32::MAX - 1 {
-            self.count += 1;
-        }
+        self.count = self.count.saturating_add(1);
     }
 
     /// The gains of the next of the first measurements.

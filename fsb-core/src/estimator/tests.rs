@@ -1,0 +1,38 @@
+//! What cannot be reached from outside in a reasonable time.
+
+use super::{Estimator, EstimatorConfig};
+
+/// A swing under a known force, k = 2; returns the number of ticks with a valid state.
+fn swing(estimator: &mut Estimator<1, 1>, from: u32, ticks: u32) -> u32 {
+    let (mut y, mut v, mut valid) = (0.3_f64, 0.0_f64, 0);
+    for tick in from..from + ticks {
+        estimator.measure(&[Some(y as f32)]).expect("in step");
+        valid += u32::from(estimator.states()[0].is_some());
+        let kick = if tick / 250 % 2 == 0 { 1.0 } else { -1.0 };
+        let force = (kick - 2.0 * y) as f32;
+        estimator.apply(&[force]);
+        let acceleration = 2.0 * f64::from(force);
+        y += v * 1e-3 + acceleration * 5e-7;
+        v += acceleration * 1e-3;
+    }
+    valid
+}
+
+/// Counts do not run out: after 2^31 measurements everything goes on, and the identification can still begin anew.
+#[test]
+fn counts_go_on() {
+    for block in [1, 10, 40] {
+        let config = EstimatorConfig { block, parameter_settle: 0.5, ..EstimatorConfig::new(1e-3) };
+        let mut estimator = Estimator::<1, 1>::new(&config).expect("valid");
+        swing(&mut estimator, 0, 3000);
+        assert!(estimator.parameters()[0].is_some(), "block {block}");
+        estimator.progress.observer.count = super::advance::LONG_AGO - 500;
+        assert_eq!(swing(&mut estimator, 3000, 2000), 2000, "block {block}: states all the way");
+        assert!(estimator.progress.observer.count < super::advance::LONG_AGO);
+        estimator.reset_identifier();
+        assert!(estimator.parameters()[0].is_none());
+        swing(&mut estimator, 5000, 3000);
+        let k = estimator.parameters()[0].expect("identified anew").value;
+        assert!((k - 2.0).abs() < 1e-4, "block {block}: {k}");
+    }
+}
