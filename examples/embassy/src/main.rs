@@ -6,7 +6,9 @@
 #![no_std]
 #![no_main]
 
+#[path = "../../shared/board.rs"]
 mod board;
+#[path = "../../shared/frame.rs"]
 mod frame;
 
 use board::{CLOCK, Marker, Motor};

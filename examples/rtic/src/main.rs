@@ -3,7 +3,9 @@
 #![no_std]
 #![no_main]
 
+#[path = "../../shared/board.rs"]
 mod board;
+#[path = "../../shared/frame.rs"]
 mod frame;
 
 use core::panic::PanicInfo;
