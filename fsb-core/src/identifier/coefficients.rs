@@ -81,6 +81,11 @@ impl IdentifierDesign {
         }
     }
 
+    /// Moves the window of the weights to the next step.
+    pub fn step(&self, window: &mut Window) {
+        window.step(&self.window);
+    }
+
     /// The square of the scale: by how much sums of products are larger than in physical units.
     pub(crate) const fn scale2(&self) -> f32 {
         self.scale * self.scale

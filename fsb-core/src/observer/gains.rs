@@ -57,6 +57,13 @@ impl ObserverDesign {
     }
 }
 
+impl ObserverDesign {
+    /// Moves the window of the gains to the next sample.
+    pub fn step(&self, window: &mut Window) {
+        window.step(&self.window);
+    }
+}
+
 /// The gains at one sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Gains {

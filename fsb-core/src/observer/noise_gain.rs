@@ -59,7 +59,7 @@ impl NoiseGain {
     /// At sample `n` of an observer with `tuning` at `period` (s), every sample measured.
     ///
     /// Exact up to n = 96. Beyond, the last 8/λ are gone through in 96 steps with means of the samples in place of the
-    /// samples, which is good to 2 %. Uses an exponential: for reports, not for the tick.
+    /// samples, which is good to 3 % (of a variance). Uses an exponential: for reports, not for the tick.
     pub fn at_sample(n: u32, tuning: Tuning, period: f64) -> Self {
         let samples = if n <= Self::STEPS {
             1.0
