@@ -4,6 +4,7 @@
 #![deny(missing_docs)]
 
 pub mod accumulator;
+pub mod attitude;
 pub mod control;
 pub mod error;
 pub mod estimator;
