@@ -1,12 +1,14 @@
 //! The state of one axis, and what it does at its turns.
 
-use super::design::Common;
+use core::mem;
+
+use super::design::{AxisDesign, Common};
 use super::shared::{IdentifierClock, ObserverClock};
 use crate::accumulator::Accumulator;
 use crate::identifier::{BlockMean, BlockMeans, Cascade, Completed, FreeState, Hypothesis};
 use crate::moments::InputMoments;
 use crate::observer::{Model, Observer};
-use crate::readout::{CheckedRule, NoiseCross, NoiseLevel, ParameterState, weight};
+use crate::readout::{NoiseCross, NoiseLevel, ParameterState, weight};
 
 /// What predicts this axis at present.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,17 +22,6 @@ pub(super) enum Source {
     Nominal,
     /// k̂, the observer having been seeded with it.
     Identified,
-}
-
-/// What an axis needs of the configuration for itself.
-#[derive(Clone, Copy)]
-pub(super) struct Own<'a> {
-    /// c
-    pub drift: f32,
-    /// c T²
-    pub drift_t2: f32,
-    pub nominal: Option<f32>,
-    pub rule: &'a CheckedRule,
 }
 
 /// The two clocks.
@@ -71,12 +62,13 @@ pub(super) struct Axis {
     begun: bool,
     /// Takes part in the identification: it was measured when its first block began.
     pub present: bool,
+    pub own: AxisDesign,
 }
 
 impl Axis {
     /// Before the first measurement.
-    pub fn start(noise: NoiseLevel) -> Self {
-        Self { noise, usable_at: u32::MAX, ..Self::default() }
+    pub fn start(noise: NoiseLevel, own: AxisDesign) -> Self {
+        Self { noise, own, usable_at: u32::MAX, ..Self::default() }
     }
 
     /// To be called when the source, `settled_at` or `measured` has changed.
@@ -99,28 +91,36 @@ impl Axis {
     }
 
     /// The sample just taken is the first of a block.
-    pub fn begin_block(&mut self, y: f32, common: &Common) {
+    #[inline(always)]
+    pub fn begin_block(&mut self, common: &Common) {
         if self.begun {
             self.block.begin(&common.block);
         } else {
-            self.begin_first(y);
+            self.begin_first();
         }
     }
 
-    fn begin_first(&mut self, y: f32) {
+    #[inline(never)]
+    fn begin_first(&mut self) {
         self.begun = true;
-        self.origin = y;
+        self.origin = self.observer.measurement();
         self.present = self.measured;
         self.block = BlockMeans::default();
     }
 
-    /// A block of one sample: its mean.
+    /// Whether the axis takes part, which is decided at the first sample of its first block.
     #[inline(always)]
-    pub fn single(&mut self, y: f32) -> BlockMean {
-        if !self.begun {
-            self.begin_first(y);
+    pub fn takes_part(&mut self) -> bool {
+        if !self.present && !self.begun {
+            self.begin_first();
         }
-        self.block.single(y - self.origin, self.moments)
+        self.present
+    }
+
+    /// The sample just taken is a block by itself: its mean.
+    #[inline(always)]
+    pub fn single(&mut self) -> BlockMean {
+        self.block.single(self.observer.measurement() - self.origin, self.moments)
     }
 
     /// Takes the mean of a completed block through the cascade into the parameter's sums. With `fold`, sums are folded on
@@ -130,7 +130,7 @@ impl Axis {
         &mut self,
         mean: BlockMean,
         fold: bool,
-        (drift, coarse_slot): (f32, u32),
+        coarse_slot: u32,
         clock: &IdentifierClock,
         parameter: &mut ParameterState,
         common: &Common,
@@ -142,17 +142,24 @@ impl Axis {
         }
         let mut z2 = self.cascade.z2();
         if common.any_drift {
-            z2 -= drift * clock.unit.zu();
+            z2 -= self.own.drift * clock.unit.zu();
         }
         let z0 = self.cascade.z0();
-        // The window is zero in the first two blocks; a block of predictions alone says nothing that was not known.
-        if clock.blocks > 2 && u32::from(self.missed) < common.block_length {
-            let informative = parameter.ratio.add(common.readout, z2, z0, common.forgetting);
+        // A block of predictions alone says nothing that was not known.
+        if self.missed != 0 && u32::from(mem::take(&mut self.missed)) >= common.block_length {
+            return;
+        }
+        // The window is zero in the first two blocks.
+        if clock.blocks > 2 {
+            let informative = if common.plain {
+                parameter.ratio.add_plain(z2, z0)
+            } else {
+                parameter.ratio.add(common.readout, z2, z0, common.forgetting)
+            };
             if informative && clock.stride == coarse_slot {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         }
-        self.missed = 0;
     }
 
     /// Every D-th block: the noise level, and how noise reaches k̂.
@@ -187,32 +194,42 @@ impl Axis {
         if self.noise.is_known() { Some(self.noise.variance() * per_stride * self.noise_sum.value()) } else { None }
     }
 
+    /// The observer follows a parameter that is valid and stays so. False where there is more to decide.
+    #[inline(always)]
+    pub fn follow_on(&mut self, parameter: &mut ParameterState, common: &Common) -> bool {
+        let usual = !parameter.stale && self.source == Source::Identified && parameter.read_on();
+        if usual {
+            self.model.follow(parameter.newest_value(), common.period2);
+        }
+        usual
+    }
+
     /// Settles what predicts this axis, and puts the observer where the identifier's own states say it is when the
     /// parameter has become valid. Right after a completed block.
     #[inline(always)]
-    pub fn follow(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
+    pub fn follow(&mut self, parameter: &ParameterState, clocks: Clocks<'_>, common: &Common) {
         if self.source == Source::Identified
             && let Some(k) = parameter.valid_value()
         {
             self.model.k_t2 = k * common.period2;
         } else {
-            self.change_source(parameter, own, clocks, common);
+            self.change_source(parameter, clocks, common);
         }
     }
 
     #[inline(never)]
-    pub fn change_source(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
-        self.choose_source(parameter, own, clocks, common);
+    pub fn change_source(&mut self, parameter: &ParameterState, clocks: Clocks<'_>, common: &Common) {
+        self.choose_source(parameter, clocks, common);
         self.decide_use();
     }
 
-    fn choose_source(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
+    fn choose_source(&mut self, parameter: &ParameterState, clocks: Clocks<'_>, common: &Common) {
         let (k, source) = if let Some(k) = parameter.valid_value() {
-            if self.present && !self.seed(k, own, clocks, common) {
+            if self.present && !self.seed(k, clocks, common) {
                 return;
             }
             (k, Source::Identified)
-        } else if let Some(k) = own.nominal {
+        } else if let Some(k) = parameter.nominal {
             (k, Source::Nominal)
         } else if let Some(k) = parameter.credible() {
             (k, Source::Provisional)
@@ -222,10 +239,10 @@ impl Axis {
             return;
         };
         self.source = source;
-        self.model = Model { k_t2: k * common.period2, c_t2: own.drift_t2 };
+        self.model = Model { k_t2: k * common.period2, c_t2: self.own.drift_t2 };
     }
 
-    fn seed(&mut self, k: f32, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) -> bool {
+    fn seed(&mut self, k: f32, clocks: Clocks<'_>, common: &Common) -> bool {
         let block = Completed {
             cascade: &self.cascade,
             unit: &clocks.identifier.unit,
@@ -233,7 +250,7 @@ impl Axis {
             block: &self.block,
             moments: self.moments,
         };
-        let by = Hypothesis { k, c: own.drift, k_t2: k * common.period2, c_t2: own.drift_t2 };
+        let by = Hypothesis { k, c: self.own.drift, k_t2: k * common.period2, c_t2: self.own.drift_t2 };
         let free = FreeState::at_block_end(&block, &common.block, common.block_length, &by);
         let sound = free.position.is_finite() && free.t_velocity.is_finite();
         if sound {
@@ -257,7 +274,7 @@ impl Axis {
             gap: self.gap,
             source: self.source,
             measured: self.measured,
-            ..Self::start(noise)
+            ..Self::start(noise, self.own)
         };
     }
 }

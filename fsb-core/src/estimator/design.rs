@@ -10,6 +10,9 @@ use crate::readout::{CheckedRule, CovarianceDesign, Memory, NoiseLevel, Paramete
 use crate::tuning::{Tuning, checked_period};
 use crate::window::WindowDesign;
 
+/// Axes to an estimator.
+pub(super) const MOST_AXES: usize = 8;
+
 /// The immutable part of an [`super::Estimator`]; one may serve several.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -20,7 +23,7 @@ pub struct EstimatorDesign<const N: usize, const P: usize> {
 }
 
 /// What differs from axis to axis.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct AxisDesign {
     /// c
@@ -58,6 +61,8 @@ pub(super) struct Common {
     /// What turns the squared step of the innovation into the variance of a block's mean.
     pub innovation_to_mean: f32,
     pub readout: Readout,
+    /// Least squares with infinite memory.
+    pub plain: bool,
     /// 1 - μ over a block, for one of the axes that share a parameter: together they forget what τ says
     pub forgetting: f32,
     pub noise: NoiseLevel,
@@ -78,7 +83,7 @@ pub(super) struct Common {
 
 impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
     const SHAPE: () = assert!(
-        N >= 1 && N <= 8 && (P == 1 || P == N),
+        N >= 1 && N <= MOST_AXES && (P == 1 || P == N),
         "at most 8 axes; P must be 1 (pooled) or N (one parameter per axis)"
     );
 
@@ -204,6 +209,7 @@ impl Common {
             block: BlockDesign::new(config.block),
             innovation_to_mean: 1.0 / innovation,
             readout: config.readout,
+            plain: config.readout == Readout::LeastSquares && fading == 0.0,
             forgetting: -libm::expm1(-fading / f64::from(config.sharing)) as f32,
             covariance,
             noise,

@@ -35,7 +35,7 @@ pub use output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
 use crate::error::ConfigError;
 use crate::readout::ParameterState;
 use axis::Axis;
-use parts::{Each, Parts};
+use parts::{Frame, Parts};
 use shared::Progress;
 
 /// k of N axes (P parameters), their positions and velocities, from positions and known inputs alone.
@@ -51,9 +51,7 @@ use shared::Progress;
 /// No allocation, no panic, no transcendental, bounded work a call.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimator<const N: usize, const P: usize> {
-    design: EstimatorDesign<N, P>,
-    progress: Progress,
-    axes: [Axis; N],
+    frame: Frame<[Axis; N]>,
     parameters: [ParameterState; P],
 }
 
@@ -71,20 +69,27 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
 
     /// Starts empty on a design made before.
     pub fn with_design(design: EstimatorDesign<N, P>) -> Self {
+        let EstimatorDesign { common, axes, parameters } = design;
         Self {
-            progress: Progress::start(&design.common),
-            axes: [Axis::start(design.common.noise); N],
-            parameters: [ParameterState::start(Self::SHARING); P],
-            design,
+            frame: Frame {
+                progress: Progress::start(&common),
+                axes: axes.map(|own| Axis::start(common.noise, own)),
+                common,
+            },
+            parameters: parameters.map(|own| ParameterState::start(Self::SHARING, own.nominal, own.rule)),
         }
     }
 
     /// Forgets everything but the design and the counters.
     pub fn reset(&mut self) {
-        let counters = self.progress.counters;
-        self.progress = Progress { counters, ..Progress::start(&self.design.common) };
-        self.axes = [Axis::start(self.design.common.noise); N];
-        self.parameters = [ParameterState::start(Self::SHARING); P];
+        let Frame { common, progress, axes } = &mut self.frame;
+        *progress = Progress { counters: progress.counters, ..Progress::start(common) };
+        for axis in axes {
+            *axis = Axis::start(common.noise, axis.own);
+        }
+        for parameter in &mut self.parameters {
+            parameter.restart(Self::SHARING);
+        }
     }
 
     /// Starts the identification anew (section III of the paper: "each reinitialization"), the observer going on. Until
@@ -96,13 +101,6 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The same without its shape.
     #[inline(always)]
     fn parts(&mut self) -> Parts<'_> {
-        let design = &self.design;
-        Parts {
-            common: &design.common,
-            each: Each { axes: &design.axes, parameters: &design.parameters },
-            progress: &mut self.progress,
-            axes: &mut self.axes,
-            parameters: &mut self.parameters,
-        }
+        Parts { frame: &mut self.frame, parameters: &mut self.parameters }
     }
 }

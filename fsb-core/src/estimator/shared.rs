@@ -55,10 +55,10 @@ impl ObserverClock {
 
     pub const START: Self = Self { window: Window::START, gains: Gains::FIRST, count: 0, until: 0, striding: false };
 
-    /// One more measurement instant.
+    /// One more measurement instant. The origin moves on long before the count could run out.
     #[inline(always)]
     pub const fn tick(&mut self) {
-        self.count = self.count.saturating_add(1);
+        self.count = self.count.wrapping_add(1);
     }
 
     /// The gains of the next of the first measurements.
@@ -126,6 +126,14 @@ impl IdentifierClock {
             stride: 0,
             settled: false,
         }
+    }
+
+    /// To the next measurement of a block; returns its place.
+    #[inline(always)]
+    pub const fn move_on(&mut self, common: &Common) -> u32 {
+        let next = self.position + 1;
+        self.position = if next == common.block_length { 0 } else { next };
+        self.position
     }
 
     /// The weights for the present block, for all axes, and every D-th time a coarse step.
