@@ -1,7 +1,7 @@
 //! What a measurement instant does: the observers, the blocks, and whoever has a turn.
 
 use super::Estimator;
-use super::axis::{Clocks, Source};
+use super::axis::{Clocks, SingleRound, Source};
 use super::parts::{Frame, Parts, parameter_of};
 
 /// Counts of measurements are kept below about this: three days at 8 kHz.
@@ -55,7 +55,7 @@ impl Parts<'_> {
         }
         progress.started = true;
         progress.substep = 0;
-        if !(progress.steady && complete) {
+        if !(progress.all_measured && complete) {
             self.count_missing(y);
             self.repair_positions(y, m1);
         }
@@ -84,14 +84,23 @@ impl Parts<'_> {
     fn take_singles(&mut self) {
         let Frame { common, progress, axes } = &mut *self.frame;
         let schedule = &common.schedule;
-        progress.identifier.step(common);
-        for (index, axis) in axes.iter_mut().enumerate() {
+        let clock = &mut progress.identifier;
+        clock.step(common);
+        let round =
+            SingleRound { stage: common.identifier.stage(), at: clock.at, zu: clock.unit.zu(), open: clock.blocks > 2 };
+        // The axis that takes its coarse step, and how far that is from one axis to the next.
+        let (apart, mut until) = (u32::from(schedule.staggered), clock.stride);
+        until = until.wrapping_sub(apart);
+        let of_next = usize::from(self.parameters.len() != 1);
+        let mut of = 0;
+        for axis in axes.iter_mut() {
             if axis.takes_part()
-                && let Some(parameter) = self.parameters.get_mut(parameter_of(index, self.parameters))
+                && let Some(parameter) = self.parameters.get_mut(of)
             {
-                let mean = axis.single();
-                axis.identify(mean, false, schedule.coarse_slot(index), &progress.identifier, parameter, common);
+                axis.identify_single(&round, until == 0, clock, parameter, common);
             }
+            of += of_next;
+            until = until.wrapping_sub(apart);
         }
         let position = progress.identifier.position;
         progress.identifier.position = (position + 1) & 7;
@@ -146,7 +155,7 @@ impl Parts<'_> {
         if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
             if axis.present {
                 let mean = axis.block.complete(&common.block);
-                axis.identify(mean, true, 0, &progress.identifier, parameter, common);
+                axis.identify_block(mean, &progress.identifier, parameter, common);
             }
             // Sums are folded, the parameter is read, the observer follows.
             axis.observer.fold();
@@ -283,7 +292,7 @@ impl Parts<'_> {
                 axis.decide_use();
                 *y = 0.0;
             }
-            progress.all_measured &= axis.measured;
+            progress.all_measured = false;
         }
     }
 }

@@ -5,7 +5,7 @@ use core::mem;
 use super::design::{AxisDesign, Common};
 use super::shared::{IdentifierClock, ObserverClock};
 use crate::accumulator::Accumulator;
-use crate::identifier::{BlockMean, BlockMeans, Cascade, Completed, FreeState, Hypothesis};
+use crate::identifier::{BlockMean, BlockMeans, Cascade, Coefficients, Completed, FreeState, Hypothesis, Stage};
 use crate::moments::InputMoments;
 use crate::observer::{Model, Observer};
 use crate::readout::{NoiseCross, NoiseLevel, ParameterState, weight};
@@ -29,6 +29,16 @@ pub(super) enum Source {
 pub(super) struct Clocks<'a> {
     pub identifier: &'a IdentifierClock,
     pub observer: &'a ObserverClock,
+}
+
+/// What all axes need in a round of single samples.
+#[derive(Clone, Copy)]
+pub(super) struct SingleRound {
+    pub stage: Stage,
+    pub at: Coefficients,
+    pub zu: f32,
+    /// The window is zero in the first two samples.
+    pub open: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -117,48 +127,68 @@ impl Axis {
         self.present
     }
 
-    /// The sample just taken is a block by itself: its mean.
+    /// Takes the mean of a completed block through the cascade into the parameter's sums, and folds the cascade's on the way.
     #[inline(always)]
-    pub fn single(&mut self) -> BlockMean {
-        self.block.single(self.observer.measurement() - self.origin, self.moments)
-    }
-
-    /// Takes the mean of a completed block through the cascade into the parameter's sums. With `fold`, sums are folded on
-    /// the way; `coarse_slot` is the number of blocks after the shared coarse step at which the axis takes its own.
-    #[inline(always)]
-    pub fn identify(
+    pub fn identify_block(
         &mut self,
         mean: BlockMean,
-        fold: bool,
-        coarse_slot: u32,
         clock: &IdentifierClock,
         parameter: &mut ParameterState,
         common: &Common,
     ) {
-        if fold {
-            self.cascade.step_folded(mean.y, mean.s, &common.identifier, &clock.at);
-        } else {
-            self.cascade.step(mean.y, mean.s, &common.identifier, &clock.at);
-        }
+        self.cascade.step_folded(mean.y, mean.s, &common.identifier, &clock.at);
         let mut z2 = self.cascade.z2();
         if common.any_drift {
             z2 -= self.own.drift * clock.unit.zu();
         }
-        let z0 = self.cascade.z0();
-        // A block of predictions alone says nothing that was not known.
-        if self.missed != 0 && u32::from(mem::take(&mut self.missed)) >= common.block_length {
-            return;
-        }
         // The window is zero in the first two blocks.
-        if clock.blocks > 2 {
-            let informative = if common.plain {
-                parameter.ratio.add_plain(z2, z0)
-            } else {
-                parameter.ratio.add(common.readout, z2, z0, common.forgetting)
-            };
-            if informative && clock.stride == coarse_slot {
-                self.coarse_step(z2, z0, clock, parameter, common);
-            }
+        if self.tells(common) && clock.blocks > 2 {
+            self.read_out(z2, clock.stride == 0, clock, parameter, common);
+        }
+    }
+
+    /// The sample just taken, a block by itself, through the cascade into the parameter's sums. Sums are not folded.
+    #[inline(always)]
+    pub fn identify_single(
+        &mut self,
+        round: &SingleRound,
+        coarse: bool,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        let mean = self.block.single(self.observer.measurement() - self.origin, self.moments);
+        self.cascade.step_at(mean.y, mean.s, &round.stage, &round.at);
+        let z2 = self.cascade.z2() - self.own.drift * round.zu;
+        if self.tells(common) && round.open {
+            self.read_out(z2, coarse, clock, parameter, common);
+        }
+    }
+
+    /// A block of predictions alone says nothing that was not known. To be asked once a block.
+    #[inline(always)]
+    fn tells(&mut self, common: &Common) -> bool {
+        self.missed == 0 || u32::from(mem::take(&mut self.missed)) < common.block_length
+    }
+
+    /// `coarse`: it is the axis's turn for a coarse step.
+    #[inline(always)]
+    fn read_out(
+        &mut self,
+        z2: f32,
+        coarse: bool,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        let z0 = self.cascade.z0();
+        let informative = if common.plain {
+            parameter.ratio.add_plain(z2, z0)
+        } else {
+            parameter.ratio.add(common.readout, z2, z0, common.forgetting)
+        };
+        if informative && coarse {
+            self.coarse_step(z2, z0, clock, parameter, common);
         }
     }
 

@@ -20,12 +20,12 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The states at the present control instant that may be used: predicted from the last measurement instant with what
     /// was applied since.
     pub fn states(&self) -> [Option<AxisState>; N] {
-        let (gains, count) = (&self.frame.progress.observer.gains, self.frame.progress.observer.count);
+        let (gains, count) = (self.frame.progress.observer.gains, self.frame.progress.observer.count);
         let per_period = self.frame.common.observer.per_period;
         if self.frame.progress.substep == 0 {
             return self.frame.axes.each_ref().map(|axis| {
                 (count >= axis.usable_at).then(|| AxisState {
-                    position: axis.observer.position(0.0, gains),
+                    position: axis.observer.corrected(&gains),
                     velocity: axis.observer.t_velocity() * per_period,
                 })
             });
@@ -37,7 +37,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             (count >= axis.usable_at).then(|| {
                 let (w, model, input) = (axis.observer.t_velocity(), &axis.model, &axis.moments);
                 AxisState {
-                    position: axis.observer.position(t * w + model.k_t2 * input.j2 + model.c_t2 * half_t2, gains),
+                    position: axis.observer.position(t * w + model.k_t2 * input.j2 + model.c_t2 * half_t2, &gains),
                     velocity: (w + model.k_t2 * input.j1 + model.c_t2 * t) * per_period,
                 }
             })

@@ -65,10 +65,4 @@ impl Schedule {
             staggered: block == 1 && coarse_steps > axes,
         }
     }
-
-    /// Blocks after a coarse step of the shared covariance at which the axis takes its own.
-    #[inline(always)]
-    pub const fn coarse_slot(&self, axis: usize) -> u32 {
-        if self.staggered { axis as u32 + 1 } else { 0 }
-    }
 }

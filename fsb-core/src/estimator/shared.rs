@@ -15,7 +15,7 @@ pub(super) struct Progress {
     /// Control periods since the last measurement instant.
     pub substep: u32,
     pub started: bool,
-    /// Every axis has been measured and not been lost.
+    /// Every axis was measured at the last instant.
     pub all_measured: bool,
     /// The next measurement can go the quick way.
     pub steady: bool,
