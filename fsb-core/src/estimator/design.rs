@@ -10,9 +10,6 @@ use crate::readout::{CheckedRule, CovarianceDesign, Memory, NoiseLevel, Paramete
 use crate::tuning::{Tuning, checked_period};
 use crate::window::WindowDesign;
 
-/// Axes to an estimator.
-pub(super) const MOST_AXES: usize = 8;
-
 /// The immutable part of an [`super::Estimator`]; one may serve several.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -83,7 +80,7 @@ pub(super) struct Common {
 
 impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
     const SHAPE: () = assert!(
-        N >= 1 && N <= MOST_AXES && (P == 1 || P == N),
+        N >= 1 && N <= 8 && (P == 1 || P == N),
         "at most 8 axes; P must be 1 (pooled) or N (one parameter per axis)"
     );
 

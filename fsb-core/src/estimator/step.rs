@@ -2,7 +2,7 @@
 
 use super::Estimator;
 use super::axis::Axis;
-use super::design::{Common, MOST_AXES};
+use super::design::Common;
 use super::output::OutOfStep;
 use super::parts::{Frame, Parts};
 use super::shared::Progress;
@@ -50,14 +50,14 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             hold(common, progress, axes, inputs);
         } else {
             let mut inputs = *inputs;
-            self.parts().apply_carefully(&mut inputs);
+            self.parts().apply_carefully(&mut inputs, &mut [f32::NAN; N]);
         }
     }
 
     /// As [`apply`](Self::apply), for inputs that go linearly from `from` to `to` over the control period.
     pub fn apply_ramp(&mut self, from: &[f32; N], to: &[f32; N]) {
         let (mut from, mut to) = (*from, *to);
-        self.parts().apply_ramp(&mut from, &mut to);
+        self.parts().apply_ramp(&mut from, &mut to, &mut [f32::NAN; N]);
     }
 }
 
@@ -83,10 +83,10 @@ fn hold(common: &Common, progress: &mut Progress, axes: &mut [Axis], inputs: &[f
 }
 
 impl Parts<'_> {
-    /// The general way to hold inputs.
+    /// The general way to hold inputs. `missing` is what a measurement is of which nothing came.
     #[inline(never)]
-    fn apply_carefully(&mut self, inputs: &mut [f32]) {
-        if self.begin_substep() {
+    fn apply_carefully(&mut self, inputs: &mut [f32], missing: &mut [f32]) {
+        if self.begin_substep(missing) {
             self.repair_inputs(inputs);
             let Frame { common, progress, axes } = &mut *self.frame;
             hold(common, progress, axes, inputs);
@@ -94,8 +94,8 @@ impl Parts<'_> {
     }
 
     #[inline(never)]
-    fn apply_ramp(&mut self, from: &mut [f32], to: &mut [f32]) {
-        if !self.begin_substep() {
+    fn apply_ramp(&mut self, from: &mut [f32], to: &mut [f32], missing: &mut [f32]) {
+        if !self.begin_substep(missing) {
             return;
         }
         self.repair_inputs(from);
@@ -111,13 +111,10 @@ impl Parts<'_> {
     }
 
     /// Goes past a measurement instant at which nothing was measured. False before the first measurement.
-    fn begin_substep(&mut self) -> bool {
-        let Frame { common, progress, axes } = &mut *self.frame;
+    fn begin_substep(&mut self, missing: &mut [f32]) -> bool {
+        let Frame { common, progress, .. } = &mut *self.frame;
         if progress.started && progress.substep >= common.substeps {
-            let mut missing = [f32::NAN; MOST_AXES];
-            if let Some(missing) = missing.get_mut(..axes.len()) {
-                self.advance(missing);
-            }
+            self.advance(missing);
         }
         self.frame.progress.started
     }
