@@ -106,9 +106,7 @@ impl Parts<'_> {
         progress.identifier.position = (position + 1) & 7;
         let gains_turn = position == schedule.gains_at;
         if schedule.unhurried {
-            for index in 0..axes.len() {
-                self.serve_single(index);
-            }
+            self.serve_all_singles();
         } else {
             self.serve_single(position as usize);
         }
@@ -128,6 +126,18 @@ impl Parts<'_> {
             if !axis.follow_on(parameter, common) {
                 self.serve_carefully(index);
             }
+        }
+    }
+
+    /// All axes, where there is time enough.
+    #[inline(never)]
+    fn serve_all_singles(&mut self) {
+        for index in 0..self.frame.axes.len() {
+            if let Some(axis) = self.frame.axes.get_mut(index) {
+                axis.observer.fold();
+                axis.cascade.fold();
+            }
+            self.serve_carefully(index);
         }
     }
 
@@ -182,6 +192,7 @@ impl Parts<'_> {
         }
     }
 
+    #[inline(never)]
     fn turn_gains(&mut self) {
         if self.frame.progress.observer.count >= LONG_AGO {
             self.rebase();

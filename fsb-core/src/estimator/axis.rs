@@ -181,13 +181,27 @@ impl Axis {
         parameter: &mut ParameterState,
         common: &Common,
     ) {
+        if !common.plain {
+            self.read_out_generally(z2, coarse, clock, parameter, common);
+            return;
+        }
         let z0 = self.cascade.z0();
-        let informative = if common.plain {
-            parameter.ratio.add_plain(z2, z0)
-        } else {
-            parameter.ratio.add(common.readout, z2, z0, common.forgetting)
-        };
-        if informative && coarse {
+        if parameter.ratio.add_plain(z2, z0) && coarse {
+            self.coarse_step(z2, z0, clock, parameter, common);
+        }
+    }
+
+    #[inline(never)]
+    fn read_out_generally(
+        &mut self,
+        z2: f32,
+        coarse: bool,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        let z0 = self.cascade.z0();
+        if parameter.ratio.add(common.readout, z2, z0, common.forgetting) && coarse {
             self.coarse_step(z2, z0, clock, parameter, common);
         }
     }
