@@ -275,7 +275,9 @@ impl Parts<'_> {
                     axis.observer.start(*y);
                     let late = if progress.observer.count > 0 { common.late_settle } else { 1 };
                     axis.settled_at = progress.observer.count.saturating_add(late.max(common.state_settle));
-                    if axis.source == Source::Nothing
+                    // A late one may find a parameter that the others have identified.
+                    let late = progress.observer.count > 0 && axis.source == Source::Nominal;
+                    if (late || axis.source == Source::Nothing)
                         && let Some(parameter) = parameter
                     {
                         let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };

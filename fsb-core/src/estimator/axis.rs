@@ -76,9 +76,13 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Before the first measurement.
-    pub fn start(noise: NoiseLevel, own: AxisDesign) -> Self {
-        Self { noise, own, usable_at: u32::MAX, ..Self::default() }
+    /// Before the first measurement: the configured parameter, if there is one, predicts. `period2` is T².
+    pub fn start(noise: NoiseLevel, own: AxisDesign, nominal: Option<f32>, period2: f32) -> Self {
+        let (source, model) = match nominal {
+            Some(k) => (Source::Nominal, Model { k_t2: k * period2, c_t2: own.drift_t2 }),
+            None => (Source::Nothing, Model::default()),
+        };
+        Self { noise, own, source, model, usable_at: u32::MAX, ..Self::default() }
     }
 
     /// To be called when the source, `settled_at` or `measured` has changed.
@@ -318,7 +322,9 @@ impl Axis {
             gap: self.gap,
             source: self.source,
             measured: self.measured,
-            ..Self::start(noise, self.own)
+            own: self.own,
+            noise,
+            ..Self::default()
         };
     }
 }

@@ -70,23 +70,23 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Starts empty on a design made before.
     pub fn with_design(design: EstimatorDesign<N, P>) -> Self {
         let EstimatorDesign { common, axes, parameters } = design;
-        Self {
+        let mut estimator = Self {
             frame: Frame {
                 progress: Progress::start(&common),
-                axes: axes.map(|own| Axis::start(common.noise, own)),
+                axes: axes.map(|own| Axis::start(common.noise, own, None, common.period2)),
                 common,
             },
             parameters: parameters.map(|own| ParameterState::start(Self::SHARING, own.nominal, own.rule)),
-        }
+        };
+        estimator.parts().start_axes();
+        estimator
     }
 
     /// Forgets everything but the design and the counters.
     pub fn reset(&mut self) {
-        let Frame { common, progress, axes } = &mut self.frame;
+        let Frame { common, progress, .. } = &mut self.frame;
         *progress = Progress { counters: progress.counters, ..Progress::start(common) };
-        for axis in axes {
-            *axis = Axis::start(common.noise, axis.own);
-        }
+        self.parts().start_axes();
         for parameter in &mut self.parameters {
             parameter.restart(Self::SHARING);
         }

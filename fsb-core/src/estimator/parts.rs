@@ -26,6 +26,15 @@ pub(super) fn parameter_of(axis: usize, parameters: &[ParameterState]) -> usize 
 }
 
 impl Parts<'_> {
+    /// Every axis as it is before its first measurement.
+    pub fn start_axes(&mut self) {
+        let Frame { common, axes, .. } = &mut *self.frame;
+        for (index, axis) in axes.iter_mut().enumerate() {
+            let nominal = self.parameters.get(parameter_of(index, self.parameters)).and_then(|p| p.nominal);
+            *axis = Axis::start(common.noise, axis.own, nominal, common.period2);
+        }
+    }
+
     /// See [`super::Estimator::reset_identifier`].
     pub fn reset_identifier(&mut self) {
         let Frame { common, progress, axes } = &mut *self.frame;
