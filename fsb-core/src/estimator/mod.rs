@@ -8,9 +8,11 @@
 //! | `design` | the same, validated and turned into constants |
 //! | `schedule` | who has a turn at which measurement |
 //! | `axis` | the state of one axis, and what it does at its turns |
+//! | `identify` | its block through the cascade, and into its parameter's sums |
 //! | `shared` | the state that depends on time alone: windows, gains, weights, covariance |
 //! | `step` | the two calls a tick |
 //! | `advance` | what a measurement instant does |
+//! | `repair` | measurements that did not come, or cannot be right |
 //! | `parts` | an estimator without its shape: code that is there once for all shapes |
 //! | `readings` | what is handed out |
 //! | `output` | the types of that |
@@ -19,9 +21,11 @@ mod advance;
 mod axis;
 mod config;
 mod design;
+mod identify;
 mod output;
 mod parts;
 mod readings;
+mod repair;
 mod schedule;
 mod shared;
 mod step;
