@@ -145,8 +145,28 @@ impl Parts<'_> {
     /// The turns within a block of several samples: `begins` is the axis that has just taken the first one of a block,
     /// `completes` the one that has taken its last. Axis i begins its blocks at the i-th sample of the first axis's and ends
     /// them a sample before.
-    #[inline(never)]
+    #[inline(always)]
     fn take_turns(&mut self, begins: u32, completes: u32) {
+        self.turn(begins, completes);
+        if (self.frame.common.block_length as usize) < self.frame.axes.len() {
+            self.take_later_turns(begins, completes);
+        }
+    }
+
+    /// Blocks shorter than there are axes: those whose turn is a block or more later than another one's.
+    #[inline(never)]
+    fn take_later_turns(&mut self, mut begins: u32, mut completes: u32) {
+        let length = self.frame.common.block_length;
+        let axes = self.frame.axes.len() as u32;
+        while begins + length < axes || completes + length < axes {
+            begins += length;
+            completes += length;
+            self.turn(begins, completes);
+        }
+    }
+
+    #[inline(never)]
+    fn turn(&mut self, begins: u32, completes: u32) {
         let Frame { common, progress, axes } = &mut *self.frame;
         let schedule = &common.schedule;
         if begins == schedule.weights_at {
@@ -161,7 +181,6 @@ impl Parts<'_> {
         } else {
             begins == schedule.gains_at
         };
-        let more = (common.block_length as usize) < axes.len();
         let of = parameter_of(index, self.parameters);
         if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
             if axis.present {
@@ -174,22 +193,8 @@ impl Parts<'_> {
                 self.serve_carefully(index);
             }
         }
-        if more {
-            self.take_more_turns(begins, completes);
-        }
         if gains_turn {
             self.turn_gains();
-        }
-    }
-
-    /// Blocks shorter than there are axes: those whose turn is a block or more later than another one's.
-    #[inline(never)]
-    fn take_more_turns(&mut self, begins: u32, completes: u32) {
-        let length = self.frame.common.block_length;
-        let axes = self.frame.axes.len() as u32;
-        if begins + length < axes || completes + length < axes {
-            // At most three deep: there are no more than eight axes.
-            self.take_turns(begins + length, completes + length);
         }
     }
 
