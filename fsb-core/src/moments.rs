@@ -52,6 +52,12 @@ impl InputMoments {
     /// An interval that has just begun.
     pub const ZERO: Self = Self { j1: 0.0, j2: 0.0 };
 
+    /// The first control period of an interval, the input held at `f`.
+    #[inline(always)]
+    pub(crate) fn held(f: f32, step: &Substep) -> Self {
+        Self { j1: f * step.share, j2: f * step.half_share2 }
+    }
+
     /// Appends a control period of an input held at `f`: j2 += j1/R + f/(2R²), j1 += f/R.
     #[inline(always)]
     pub fn hold(&mut self, f: f32, step: &Substep) {

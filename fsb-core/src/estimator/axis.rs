@@ -1,12 +1,12 @@
 //! The state of one axis, and what it does at its turns.
 
-use super::design::Common;
+use super::design::{AxisDesign, Common};
 use super::shared::{IdentifierClock, ObserverClock};
 use crate::accumulator::Accumulator;
-use crate::identifier::{BlockMean, BlockMeans, Cascade, Completed, FreeState, Hypothesis};
+use crate::identifier::{BlockMeans, Cascade, Completed, FreeState, Hypothesis};
 use crate::moments::InputMoments;
 use crate::observer::{Model, Observer};
-use crate::readout::{CheckedRule, NoiseCross, NoiseLevel, ParameterState, weight};
+use crate::readout::{NoiseCross, NoiseLevel, ParameterState};
 
 /// What predicts this axis at present.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,17 +20,6 @@ pub(super) enum Source {
     Nominal,
     /// k̂, the observer having been seeded with it.
     Identified,
-}
-
-/// What an axis needs of the configuration for itself.
-#[derive(Clone, Copy)]
-pub(super) struct Own<'a> {
-    /// c
-    pub drift: f32,
-    /// c T²
-    pub drift_t2: f32,
-    pub nominal: Option<f32>,
-    pub rule: &'a CheckedRule,
 }
 
 /// The two clocks.
@@ -48,13 +37,13 @@ pub(super) struct Axis {
     pub moments: InputMoments,
     pub block: BlockMeans,
     /// The first position, subtracted from all: the plant is translation invariant, rounding is not.
-    origin: f32,
+    pub(super) origin: f32,
     /// The innovation before the last.
-    innovation_before: f32,
+    pub(super) innovation_before: f32,
     pub cascade: Cascade,
-    cross: NoiseCross,
+    pub(super) cross: NoiseCross,
     /// var a for unit noise.
-    noise_sum: Accumulator,
+    pub(super) noise_sum: Accumulator,
     pub noise: NoiseLevel,
     /// The measurement count from which on the state may be handed out, if there is something to predict it with.
     pub settled_at: u32,
@@ -68,15 +57,20 @@ pub(super) struct Axis {
     /// Measured at least once, and not lost since.
     pub measured: bool,
     /// The first block has begun.
-    begun: bool,
+    pub(super) begun: bool,
     /// Takes part in the identification: it was measured when its first block began.
     pub present: bool,
+    pub own: AxisDesign,
 }
 
 impl Axis {
-    /// Before the first measurement.
-    pub fn start(noise: NoiseLevel) -> Self {
-        Self { noise, usable_at: u32::MAX, ..Self::default() }
+    /// Before the first measurement: the configured parameter, if there is one, predicts. `period2` is T².
+    pub fn start(noise: NoiseLevel, own: AxisDesign, nominal: Option<f32>, period2: f32) -> Self {
+        let (source, model) = match nominal {
+            Some(k) => (Source::Nominal, Model { k_t2: k * period2, c_t2: own.drift_t2 }),
+            None => (Source::Nothing, Model::default()),
+        };
+        Self { noise, own, source, model, usable_at: u32::MAX, ..Self::default() }
     }
 
     /// To be called when the source, `settled_at` or `measured` has changed.
@@ -99,120 +93,68 @@ impl Axis {
     }
 
     /// The sample just taken is the first of a block.
-    pub fn begin_block(&mut self, y: f32, common: &Common) {
+    #[inline(always)]
+    pub fn begin_block(&mut self, common: &Common) {
         if self.begun {
             self.block.begin(&common.block);
         } else {
-            self.begin_first(y);
+            self.begin_first();
         }
     }
 
-    fn begin_first(&mut self, y: f32) {
+    #[inline(never)]
+    fn begin_first(&mut self) {
         self.begun = true;
-        self.origin = y;
+        self.origin = self.observer.measurement();
         self.present = self.measured;
         self.block = BlockMeans::default();
     }
 
-    /// A block of one sample: its mean.
+    /// Whether the axis takes part, which is decided at the first sample of its first block.
     #[inline(always)]
-    pub fn single(&mut self, y: f32) -> BlockMean {
-        if !self.begun {
-            self.begin_first(y);
+    pub fn takes_part(&mut self) -> bool {
+        if !self.present && !self.begun {
+            self.begin_first();
         }
-        self.block.single(y - self.origin, self.moments)
+        self.present
     }
 
-    /// Takes the mean of a completed block through the cascade into the parameter's sums. With `fold`, sums are folded on
-    /// the way; `coarse_slot` is the number of blocks after the shared coarse step at which the axis takes its own.
+    /// The observer follows a parameter that is valid and stays so. False where there is more to decide.
     #[inline(always)]
-    pub fn identify(
-        &mut self,
-        mean: BlockMean,
-        fold: bool,
-        (drift, coarse_slot): (f32, u32),
-        clock: &IdentifierClock,
-        parameter: &mut ParameterState,
-        common: &Common,
-    ) {
-        if fold {
-            self.cascade.step_folded(mean.y, mean.s, &common.identifier, &clock.at);
-        } else {
-            self.cascade.step(mean.y, mean.s, &common.identifier, &clock.at);
+    pub fn follow_on(&mut self, parameter: &mut ParameterState, common: &Common) -> bool {
+        let usual = !parameter.stale && self.source == Source::Identified && parameter.read_on();
+        if usual {
+            self.model.follow(parameter.newest_value(), common.period2);
         }
-        let mut z2 = self.cascade.z2();
-        if common.any_drift {
-            z2 -= drift * clock.unit.zu();
-        }
-        let z0 = self.cascade.z0();
-        // The window is zero in the first two blocks; a block of predictions alone says nothing that was not known.
-        if clock.blocks > 2 && u32::from(self.missed) < common.block_length {
-            let informative = parameter.ratio.add(common.readout, z2, z0, common.forgetting);
-            if informative && clock.stride == coarse_slot {
-                self.coarse_step(z2, z0, clock, parameter, common);
-            }
-        }
-        self.missed = 0;
-    }
-
-    /// Every D-th block: the noise level, and how noise reaches k̂.
-    #[inline(never)]
-    fn coarse_step(
-        &mut self,
-        z2: f32,
-        z0: f32,
-        clock: &IdentifierClock,
-        parameter: &mut ParameterState,
-        common: &Common,
-    ) {
-        let covariance = &common.covariance;
-        // The covariance of the cascade is that of a filled one from its third step on.
-        if clock.blocks > 2 * covariance.steps {
-            let step = self.observer.innovation() - self.innovation_before;
-            // With the quotient of this very moment: the one read last may be from before the take-off.
-            let residual = z2 - parameter.ratio.quotient() * z0;
-            self.noise.add(
-                step * step * common.innovation_to_mean,
-                covariance.stride * (residual * residual) / (clock.shape.variance() * common.identifier.scale2()),
-            );
-        }
-        let (up, down) = weight(common.readout, z2, z0);
-        let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
-        self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
-        parameter.step_coarsely(covariance.stride * down * z0, covariance.forgetting);
-    }
-
-    /// σ² var a, this axis's share of the variance of the numerator of k̂; `None` while the noise level is not known.
-    pub fn numerator_variance(&self, per_stride: f32) -> Option<f32> {
-        if self.noise.is_known() { Some(self.noise.variance() * per_stride * self.noise_sum.value()) } else { None }
+        usual
     }
 
     /// Settles what predicts this axis, and puts the observer where the identifier's own states say it is when the
     /// parameter has become valid. Right after a completed block.
     #[inline(always)]
-    pub fn follow(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
+    pub fn follow(&mut self, parameter: &ParameterState, clocks: Clocks<'_>, common: &Common) {
         if self.source == Source::Identified
             && let Some(k) = parameter.valid_value()
         {
             self.model.k_t2 = k * common.period2;
         } else {
-            self.change_source(parameter, own, clocks, common);
+            self.change_source(parameter, clocks, common);
         }
     }
 
     #[inline(never)]
-    pub fn change_source(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
-        self.choose_source(parameter, own, clocks, common);
+    pub fn change_source(&mut self, parameter: &ParameterState, clocks: Clocks<'_>, common: &Common) {
+        self.choose_source(parameter, clocks, common);
         self.decide_use();
     }
 
-    fn choose_source(&mut self, parameter: &ParameterState, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) {
+    fn choose_source(&mut self, parameter: &ParameterState, clocks: Clocks<'_>, common: &Common) {
         let (k, source) = if let Some(k) = parameter.valid_value() {
-            if self.present && !self.seed(k, own, clocks, common) {
+            if self.present && !self.seed(k, clocks, common) {
                 return;
             }
             (k, Source::Identified)
-        } else if let Some(k) = own.nominal {
+        } else if let Some(k) = parameter.nominal {
             (k, Source::Nominal)
         } else if let Some(k) = parameter.credible() {
             (k, Source::Provisional)
@@ -222,10 +164,10 @@ impl Axis {
             return;
         };
         self.source = source;
-        self.model = Model { k_t2: k * common.period2, c_t2: own.drift_t2 };
+        self.model = Model { k_t2: k * common.period2, c_t2: self.own.drift_t2 };
     }
 
-    fn seed(&mut self, k: f32, own: &Own<'_>, clocks: Clocks<'_>, common: &Common) -> bool {
+    fn seed(&mut self, k: f32, clocks: Clocks<'_>, common: &Common) -> bool {
         let block = Completed {
             cascade: &self.cascade,
             unit: &clocks.identifier.unit,
@@ -233,7 +175,7 @@ impl Axis {
             block: &self.block,
             moments: self.moments,
         };
-        let by = Hypothesis { k, c: own.drift, k_t2: k * common.period2, c_t2: own.drift_t2 };
+        let by = Hypothesis { k, c: self.own.drift, k_t2: k * common.period2, c_t2: self.own.drift_t2 };
         let free = FreeState::at_block_end(&block, &common.block, common.block_length, &by);
         let sound = free.position.is_finite() && free.t_velocity.is_finite();
         if sound {
@@ -257,7 +199,9 @@ impl Axis {
             gap: self.gap,
             source: self.source,
             measured: self.measured,
-            ..Self::start(noise)
+            own: self.own,
+            noise,
+            ..Self::default()
         };
     }
 }

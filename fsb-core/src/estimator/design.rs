@@ -20,7 +20,7 @@ pub struct EstimatorDesign<const N: usize, const P: usize> {
 }
 
 /// What differs from axis to axis.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct AxisDesign {
     /// c
@@ -58,6 +58,8 @@ pub(super) struct Common {
     /// What turns the squared step of the innovation into the variance of a block's mean.
     pub innovation_to_mean: f32,
     pub readout: Readout,
+    /// Least squares with infinite memory.
+    pub plain: bool,
     /// 1 - μ over a block, for one of the axes that share a parameter: together they forget what τ says
     pub forgetting: f32,
     pub noise: NoiseLevel,
@@ -204,6 +206,7 @@ impl Common {
             block: BlockDesign::new(config.block),
             innovation_to_mean: 1.0 / innovation,
             readout: config.readout,
+            plain: config.readout == Readout::LeastSquares && fading == 0.0,
             forgetting: -libm::expm1(-fading / f64::from(config.sharing)) as f32,
             covariance,
             noise,

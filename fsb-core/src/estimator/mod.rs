@@ -8,9 +8,11 @@
 //! | `design` | the same, validated and turned into constants |
 //! | `schedule` | who has a turn at which measurement |
 //! | `axis` | the state of one axis, and what it does at its turns |
+//! | `identify` | its block through the cascade, and into its parameter's sums |
 //! | `shared` | the state that depends on time alone: windows, gains, weights, covariance |
 //! | `step` | the two calls a tick |
 //! | `advance` | what a measurement instant does |
+//! | `repair` | measurements that did not come, or cannot be right |
 //! | `parts` | an estimator without its shape: code that is there once for all shapes |
 //! | `readings` | what is handed out |
 //! | `output` | the types of that |
@@ -19,9 +21,11 @@ mod advance;
 mod axis;
 mod config;
 mod design;
+mod identify;
 mod output;
 mod parts;
 mod readings;
+mod repair;
 mod schedule;
 mod shared;
 mod step;
@@ -35,7 +39,7 @@ pub use output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
 use crate::error::ConfigError;
 use crate::readout::ParameterState;
 use axis::Axis;
-use parts::{Each, Parts};
+use parts::{Frame, Parts};
 use shared::Progress;
 
 /// k of N axes (P parameters), their positions and velocities, from positions and known inputs alone.
@@ -51,9 +55,7 @@ use shared::Progress;
 /// No allocation, no panic, no transcendental, bounded work a call.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimator<const N: usize, const P: usize> {
-    design: EstimatorDesign<N, P>,
-    progress: Progress,
-    axes: [Axis; N],
+    frame: Frame<[Axis; N]>,
     parameters: [ParameterState; P],
 }
 
@@ -71,20 +73,27 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
 
     /// Starts empty on a design made before.
     pub fn with_design(design: EstimatorDesign<N, P>) -> Self {
-        Self {
-            progress: Progress::start(&design.common),
-            axes: [Axis::start(design.common.noise); N],
-            parameters: [ParameterState::start(Self::SHARING); P],
-            design,
-        }
+        let EstimatorDesign { common, axes, parameters } = design;
+        let mut estimator = Self {
+            frame: Frame {
+                progress: Progress::start(&common),
+                axes: axes.map(|own| Axis::start(common.noise, own, None, common.period2)),
+                common,
+            },
+            parameters: parameters.map(|own| ParameterState::start(Self::SHARING, own.nominal, own.rule)),
+        };
+        estimator.parts().start_axes();
+        estimator
     }
 
     /// Forgets everything but the design and the counters.
     pub fn reset(&mut self) {
-        let counters = self.progress.counters;
-        self.progress = Progress { counters, ..Progress::start(&self.design.common) };
-        self.axes = [Axis::start(self.design.common.noise); N];
-        self.parameters = [ParameterState::start(Self::SHARING); P];
+        let Frame { common, progress, .. } = &mut self.frame;
+        *progress = Progress { counters: progress.counters, ..Progress::start(common) };
+        self.parts().start_axes();
+        for parameter in &mut self.parameters {
+            parameter.restart(Self::SHARING);
+        }
     }
 
     /// Starts the identification anew (section III of the paper: "each reinitialization"), the observer going on. Until
@@ -96,13 +105,6 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The same without its shape.
     #[inline(always)]
     fn parts(&mut self) -> Parts<'_> {
-        let design = &self.design;
-        Parts {
-            common: &design.common,
-            each: Each { axes: &design.axes, parameters: &design.parameters },
-            progress: &mut self.progress,
-            axes: &mut self.axes,
-            parameters: &mut self.parameters,
-        }
+        Parts { frame: &mut self.frame, parameters: &mut self.parameters }
     }
 }

@@ -1,60 +1,57 @@
 //! An estimator without its shape: the code behind it is there once for all numbers of axes.
 
-use super::axis::{Axis, Clocks, Own};
-use super::design::{AxisDesign, Common, ParameterDesign};
+use super::axis::{Axis, Clocks};
+use super::design::Common;
 use super::shared::{IdentifierClock, Progress};
 use crate::readout::ParameterState;
 
+/// The axes and what they share. Without its shape it is this with a slice in place of the array: two words to hand over.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame<A: ?Sized> {
+    pub common: Common,
+    pub progress: Progress,
+    pub axes: A,
+}
+
 /// Borrowed from an estimator.
 pub(super) struct Parts<'a> {
-    pub common: &'a Common,
-    pub each: Each<'a>,
-    pub progress: &'a mut Progress,
-    pub axes: &'a mut [Axis],
+    pub frame: &'a mut Frame<[Axis]>,
     pub parameters: &'a mut [ParameterState],
 }
 
-/// What differs from axis to axis, and from parameter to parameter.
-#[derive(Clone, Copy)]
-pub(super) struct Each<'a> {
-    pub axes: &'a [AxisDesign],
-    pub parameters: &'a [ParameterDesign],
-}
-
-impl<'a> Each<'a> {
-    /// The parameter that `axis` shares in.
-    #[inline(always)]
-    pub fn parameter_of(&self, axis: usize) -> usize {
-        if self.parameters.len() == 1 { 0 } else { axis }
-    }
-
-    /// What an axis needs.
-    #[inline(always)]
-    pub fn own(&self, axis: usize) -> Option<Own<'a>> {
-        let AxisDesign { drift, drift_t2 } = *self.axes.get(axis)?;
-        let ParameterDesign { nominal, rule } = self.parameters.get(self.parameter_of(axis))?;
-        Some(Own { drift, drift_t2, nominal: *nominal, rule })
-    }
+/// The parameter that `axis` shares in.
+#[inline(always)]
+pub(super) fn parameter_of(axis: usize, parameters: &[ParameterState]) -> usize {
+    if parameters.len() == 1 { 0 } else { axis }
 }
 
 impl Parts<'_> {
+    /// Every axis as it is before its first measurement.
+    pub fn start_axes(&mut self) {
+        let Frame { common, axes, .. } = &mut *self.frame;
+        for (index, axis) in axes.iter_mut().enumerate() {
+            let nominal = self.parameters.get(parameter_of(index, self.parameters)).and_then(|p| p.nominal);
+            *axis = Axis::start(common.noise, axis.own, nominal, common.period2);
+        }
+    }
+
     /// See [`super::Estimator::reset_identifier`].
     pub fn reset_identifier(&mut self) {
-        let progress = &mut *self.progress;
+        let Frame { common, progress, axes } = &mut *self.frame;
         let next = if progress.started { progress.observer.count.saturating_add(1) } else { 0 };
-        progress.identifier = IdentifierClock::start(next.saturating_add(self.common.schedule.turn));
+        progress.identifier = IdentifierClock::start(next.saturating_add(common.schedule.turn));
         progress.steady = false;
         let pooled = self.parameters.len() == 1;
-        let measured = self.axes.iter().filter(|axis| axis.measured).count();
+        let measured = axes.iter().filter(|axis| axis.measured).count();
         let members = if pooled { measured as u8 } else { 1 };
         for parameter in self.parameters.iter_mut() {
-            *parameter = ParameterState::start(members);
+            parameter.restart(members);
         }
         let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };
-        for (index, axis) in self.axes.iter_mut().enumerate() {
-            axis.reset_identifier(self.common.noise);
-            if let Some(own) = self.each.own(index) {
-                axis.change_source(&ParameterState::start(0), &own, clocks, self.common);
+        for (index, axis) in axes.iter_mut().enumerate() {
+            axis.reset_identifier(common.noise);
+            if let Some(parameter) = self.parameters.get(parameter_of(index, self.parameters)) {
+                axis.change_source(parameter, clocks, common);
             }
         }
     }

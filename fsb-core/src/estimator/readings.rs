@@ -20,24 +20,24 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The states at the present control instant that may be used: predicted from the last measurement instant with what
     /// was applied since.
     pub fn states(&self) -> [Option<AxisState>; N] {
-        let (gains, count) = (&self.progress.observer.gains, self.progress.observer.count);
-        let per_period = self.design.common.observer.per_period;
-        if self.progress.substep == 0 {
-            return self.axes.each_ref().map(|axis| {
+        let (gains, count) = (self.frame.progress.observer.gains, self.frame.progress.observer.count);
+        let per_period = self.frame.common.observer.per_period;
+        if self.frame.progress.substep == 0 {
+            return self.frame.axes.each_ref().map(|axis| {
                 (count >= axis.usable_at).then(|| AxisState {
-                    position: axis.observer.position(0.0, gains),
+                    position: axis.observer.corrected(&gains),
                     velocity: axis.observer.t_velocity() * per_period,
                 })
             });
         }
         // Time since the last measurement instant over T.
-        let t = self.progress.substep as f32 * self.design.common.substep_share;
+        let t = self.frame.progress.substep as f32 * self.frame.common.substep_share;
         let half_t2 = 0.5 * t * t;
-        self.axes.each_ref().map(|axis| {
+        self.frame.axes.each_ref().map(|axis| {
             (count >= axis.usable_at).then(|| {
                 let (w, model, input) = (axis.observer.t_velocity(), &axis.model, &axis.moments);
                 AxisState {
-                    position: axis.observer.position(t * w + model.k_t2 * input.j2 + model.c_t2 * half_t2, gains),
+                    position: axis.observer.position(t * w + model.k_t2 * input.j2 + model.c_t2 * half_t2, &gains),
                     velocity: (w + model.k_t2 * input.j1 + model.c_t2 * t) * per_period,
                 }
             })
@@ -46,9 +46,9 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
 
     /// Why a state may be used or not.
     pub fn state_status(&self) -> [StateStatus; N] {
-        self.axes.each_ref().map(|axis| match axis.source {
+        self.frame.axes.each_ref().map(|axis| match axis.source {
             _ if !axis.measured => StateStatus::NotMeasured,
-            _ if self.progress.observer.count < axis.settled_at => StateStatus::Settling,
+            _ if self.frame.progress.observer.count < axis.settled_at => StateStatus::Settling,
             Source::Identified => StateStatus::Identified,
             Source::Nominal => StateStatus::Nominal,
             Source::Provisional | Source::Nothing => StateStatus::NoParameter,
@@ -59,14 +59,14 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// level is known. The parameter's own uncertainty is not in them, nor are measurements that were missed before the last
     /// one that came. Good to a few per cent otherwise; for reports, not for the tick.
     pub fn state_sd(&self) -> [Option<AxisState>; N] {
-        let (tuning, period) = (self.design.common.observer_tuning, self.design.common.measurement_period);
-        let gain = NoiseGain::at_sample(self.progress.observer.count, tuning, period);
-        self.axes.each_ref().map(|axis| {
+        let (tuning, period) = (self.frame.common.observer_tuning, self.frame.common.measurement_period);
+        let gain = NoiseGain::at_sample(self.frame.progress.observer.count, tuning, period);
+        self.frame.axes.each_ref().map(|axis| {
             // Means over M samples have an M-th of the variance.
-            let variance = axis.noise.measurement_variance() * self.design.common.block_length as f32;
+            let variance = axis.noise.measurement_variance() * self.frame.common.block_length as f32;
             (axis.noise.is_known() && axis.measured).then(|| AxisState {
                 position: libm::sqrtf(variance * gain.position_after(axis.gap)),
-                velocity: libm::sqrtf(variance * gain.velocity(&self.design.common.observer)),
+                velocity: libm::sqrtf(variance * gain.velocity(&self.frame.common.observer)),
             })
         })
     }
@@ -74,11 +74,11 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// The identifier's inner signals: for logs and tests, not for control.
     pub fn diagnostics(&self) -> [AxisDiagnostics; N] {
         core::array::from_fn(|index| {
-            let axis = self.axes.get(index).copied().unwrap_or_default();
-            let drift = self.design.axes.get(index).map_or(0.0, |axis| axis.drift);
+            let axis = self.frame.axes.get(index).copied().unwrap_or_default();
+            let drift = axis.own.drift;
             let ratio = self.parameters.get(if P == 1 { 0 } else { index }).map(|p| p.ratio);
-            let zu = self.progress.identifier.unit.zu();
-            let scale = self.design.common.identifier.scale;
+            let zu = self.frame.progress.identifier.unit.zu();
+            let scale = self.frame.common.identifier.scale;
             AxisDiagnostics {
                 z2: (axis.cascade.z2() - drift * zu) / scale,
                 z0: axis.cascade.z0() / scale,
@@ -93,6 +93,6 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
 
     /// What has been missed or rejected.
     pub const fn counters(&self) -> Counters {
-        self.progress.counters
+        self.frame.progress.counters
     }
 }

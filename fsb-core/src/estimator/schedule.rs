@@ -18,7 +18,8 @@ pub(super) struct Schedule {
     /// The observer's gains are renewed every so many measurements, once they change slowly. Any gains leave the estimate
     /// exact; these are within a few per cent of the best ones.
     pub gains_every: u32,
-    /// At which measurement of a round the gains are renewed; unused where a round is longer than `gains_every`.
+    /// At which measurement of a round the gains are renewed, or where blocks are shorter than there are axes, after which
+    /// axis's turn; unused where a round is longer than `gains_every`.
     pub gains_at: u32,
     /// A bit for each measurement of a round (modulo 32) in which somebody has a turn.
     pub events: u32,
@@ -40,6 +41,8 @@ impl Schedule {
         let weights_at = shared_at;
         let gains_at = match block {
             1 => axes % 8,
+            // After the last one of the axes that have a turn then.
+            _ if block < axes => shared_at + (axes - 1) / block * block,
             _ => shared_at,
         };
         let mut events = 0_u32;
@@ -64,11 +67,5 @@ impl Schedule {
             unhurried: period >= Self::UNHURRIED,
             staggered: block == 1 && coarse_steps > axes,
         }
-    }
-
-    /// Blocks after a coarse step of the shared covariance at which the axis takes its own.
-    #[inline(always)]
-    pub const fn coarse_slot(&self, axis: usize) -> u32 {
-        if self.staggered { axis as u32 + 1 } else { 0 }
     }
 }

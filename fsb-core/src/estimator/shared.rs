@@ -15,7 +15,7 @@ pub(super) struct Progress {
     /// Control periods since the last measurement instant.
     pub substep: u32,
     pub started: bool,
-    /// Every axis has been measured and not been lost.
+    /// Every axis was measured at the last instant.
     pub all_measured: bool,
     /// The next measurement can go the quick way.
     pub steady: bool,
@@ -55,10 +55,10 @@ impl ObserverClock {
 
     pub const START: Self = Self { window: Window::START, gains: Gains::FIRST, count: 0, until: 0, striding: false };
 
-    /// One more measurement instant.
+    /// One more measurement instant. The origin moves on long before the count could run out.
     #[inline(always)]
     pub const fn tick(&mut self) {
-        self.count = self.count.saturating_add(1);
+        self.count = self.count.wrapping_add(1);
     }
 
     /// The gains of the next of the first measurements.
@@ -126,6 +126,14 @@ impl IdentifierClock {
             stride: 0,
             settled: false,
         }
+    }
+
+    /// To the next measurement of a block; returns its place.
+    #[inline(always)]
+    pub const fn move_on(&mut self, common: &Common) -> u32 {
+        let next = self.position + 1;
+        self.position = if next == common.block_length { 0 } else { next };
+        self.position
     }
 
     /// The weights for the present block, for all axes, and every D-th time a coarse step.

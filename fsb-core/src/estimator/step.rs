@@ -1,7 +1,11 @@
 //! The estimator's two calls a tick: [`Estimator::measure`] and [`Estimator::apply`].
 
 use super::Estimator;
+use super::axis::Axis;
+use super::design::Common;
 use super::output::OutOfStep;
+use super::parts::{Frame, Parts};
+use super::shared::Progress;
 use crate::moments::InputMoments;
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
@@ -25,99 +29,107 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// # Errors
     /// As [`measure`](Self::measure).
     pub fn measure_raw(&mut self, positions: &[f32; N]) -> Result<(), OutOfStep> {
-        let due = self.progress.substep >= self.design.common.substeps;
-        if due && self.progress.steady && self.all_within(positions, self.design.common.position_limit) {
+        let due = self.frame.progress.substep >= self.frame.common.substeps;
+        if due && self.frame.progress.steady && all_within(positions, self.frame.common.position_limit) {
             self.advance_steadily(positions);
             return Ok(());
         }
-        if self.progress.started && !due {
-            return Err(OutOfStep { missing: self.design.common.substeps - self.progress.substep });
+        if self.frame.progress.started && !due {
+            return Err(OutOfStep { missing: self.frame.common.substeps - self.frame.progress.substep });
         }
         let mut positions = *positions;
         self.parts().advance(&mut positions);
         Ok(())
     }
 
-    /// One comparison for all: the sum of the magnitudes is within the limit only if each is, and no NaN passes.
-    #[inline(always)]
-    fn all_within(&self, values: &[f32; N], limit: f32) -> bool {
-        values.iter().map(|x| x.abs()).sum::<f32>() <= limit
-    }
-
     /// The inputs held over the control period that begins now. Before the first measurement nothing happens.
     pub fn apply(&mut self, inputs: &[f32; N]) {
-        if self.progress.substep < self.design.common.substeps
-            && self.progress.started
-            && self.all_within(inputs, self.design.common.input_limit)
-        {
-            self.hold(inputs);
+        let limit = self.frame.common.input_limit;
+        let Frame { common, progress, axes } = &mut self.frame;
+        if progress.substep < common.substeps && progress.started && all_within(inputs, limit) {
+            hold(common, progress, axes, inputs);
         } else {
-            self.apply_carefully(inputs);
-        }
-    }
-
-    #[inline(always)]
-    fn hold(&mut self, inputs: &[f32; N]) {
-        if self.design.common.substeps == 1 {
-            for (axis, &f) in self.axes.iter_mut().zip(inputs) {
-                axis.moments = InputMoments { j1: f, j2: 0.5 * f };
-            }
-        } else {
-            if self.progress.substep == 0 {
-                for axis in &mut self.axes {
-                    axis.moments = InputMoments::ZERO;
-                }
-            }
-            for (axis, &f) in self.axes.iter_mut().zip(inputs) {
-                axis.moments.hold(f, &self.design.common.substep);
-            }
-        }
-        self.progress.substep += 1;
-    }
-
-    #[inline(never)]
-    fn apply_carefully(&mut self, inputs: &[f32; N]) {
-        if self.begin_substep() {
-            let inputs = self.repaired_inputs(*inputs);
-            self.hold(&inputs);
+            let mut inputs = *inputs;
+            self.parts().apply_carefully(&mut inputs, &mut [f32::NAN; N]);
         }
     }
 
     /// As [`apply`](Self::apply), for inputs that go linearly from `from` to `to` over the control period.
     pub fn apply_ramp(&mut self, from: &[f32; N], to: &[f32; N]) {
-        if !self.begin_substep() {
+        let (mut from, mut to) = (*from, *to);
+        self.parts().apply_ramp(&mut from, &mut to, &mut [f32::NAN; N]);
+    }
+}
+
+/// One comparison for all: the sum of the magnitudes is within the limit only if each is, and no NaN passes.
+#[inline(always)]
+fn all_within<const N: usize>(values: &[f32; N], limit: f32) -> bool {
+    values.iter().map(|x| x.abs()).sum::<f32>() <= limit
+}
+
+#[inline(always)]
+fn hold(common: &Common, progress: &mut Progress, axes: &mut [Axis], inputs: &[f32]) {
+    let step = &common.substep;
+    for (axis, &f) in axes.iter_mut().zip(inputs) {
+        if common.substeps == 1 {
+            axis.moments = InputMoments { j1: f, j2: 0.5 * f };
+        } else if progress.substep == 0 {
+            axis.moments = InputMoments::held(f, step);
+        } else {
+            axis.moments.hold(f, step);
+        }
+    }
+    progress.substep += 1;
+}
+
+impl Parts<'_> {
+    /// The general way to hold inputs. `missing` is what a measurement is of which nothing came.
+    #[inline(never)]
+    fn apply_carefully(&mut self, inputs: &mut [f32], missing: &mut [f32]) {
+        if self.begin_substep(missing) {
+            self.repair_inputs(inputs);
+            let Frame { common, progress, axes } = &mut *self.frame;
+            hold(common, progress, axes, inputs);
+        }
+    }
+
+    #[inline(never)]
+    fn apply_ramp(&mut self, from: &mut [f32], to: &mut [f32], missing: &mut [f32]) {
+        if !self.begin_substep(missing) {
             return;
         }
-        let (from, to) = (self.repaired_inputs(*from), self.repaired_inputs(*to));
-        for (axis, (&from, &to)) in self.axes.iter_mut().zip(from.iter().zip(&to)) {
-            if self.progress.substep == 0 {
+        self.repair_inputs(from);
+        self.repair_inputs(to);
+        let Frame { common, progress, axes } = &mut *self.frame;
+        for (axis, (&mut from, &mut to)) in axes.iter_mut().zip(from.iter_mut().zip(to)) {
+            if progress.substep == 0 {
                 axis.moments = InputMoments::ZERO;
             }
-            axis.moments.ramp(from, to, &self.design.common.substep);
+            axis.moments.ramp(from, to, &common.substep);
         }
-        self.progress.substep += 1;
+        progress.substep += 1;
     }
 
     /// Goes past a measurement instant at which nothing was measured. False before the first measurement.
-    fn begin_substep(&mut self) -> bool {
-        if self.progress.started && self.progress.substep >= self.design.common.substeps {
-            self.parts().advance(&mut [f32::NAN; N]);
+    fn begin_substep(&mut self, missing: &mut [f32]) -> bool {
+        let Frame { common, progress, .. } = &mut *self.frame;
+        if progress.started && progress.substep >= common.substeps {
+            self.advance(missing);
         }
-        self.progress.started
+        self.frame.progress.started
     }
 
     /// The inputs, a rejected one replaced by the mean of the axis's input over the interval so far.
-    fn repaired_inputs(&mut self, mut inputs: [f32; N]) -> [f32; N] {
-        let common = &self.design.common;
-        for (axis, f) in self.axes.iter().zip(inputs.iter_mut()) {
+    fn repair_inputs(&mut self, inputs: &mut [f32]) {
+        let Frame { common, progress, axes } = &mut *self.frame;
+        for (axis, f) in axes.iter().zip(inputs) {
             if f.abs() <= common.input_limit {
                 continue;
             }
-            self.progress.counters.rejected_inputs = self.progress.counters.rejected_inputs.saturating_add(1);
+            progress.counters.rejected_inputs = progress.counters.rejected_inputs.saturating_add(1);
             // j1 is the mean of the interval before, or the part of the present one's that is known.
-            let periods = if self.progress.substep == 0 { common.substeps } else { self.progress.substep };
+            let periods = if progress.substep == 0 { common.substeps } else { progress.substep };
             *f = axis.moments.j1 / (periods as f32 * common.substep_share);
         }
-        inputs
     }
 }

@@ -26,9 +26,9 @@ fn counts_go_on() {
         let mut estimator = Estimator::<1, 1>::new(&config).expect("valid");
         swing(&mut estimator, 0, 3000);
         assert!(estimator.parameters()[0].is_some(), "block {block}");
-        estimator.progress.observer.count = super::advance::LONG_AGO - 500;
+        estimator.frame.progress.observer.count = super::advance::LONG_AGO - 500;
         assert_eq!(swing(&mut estimator, 3000, 2000), 2000, "block {block}: states all the way");
-        assert!(estimator.progress.observer.count < super::advance::LONG_AGO);
+        assert!(estimator.frame.progress.observer.count < super::advance::LONG_AGO);
         estimator.reset_identifier();
         assert!(estimator.parameters()[0].is_none());
         swing(&mut estimator, 5000, 3000);

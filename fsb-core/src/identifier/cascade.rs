@@ -18,16 +18,29 @@ pub struct Cascade {
     pub(crate) x6: Accumulator,
 }
 
+/// What a stage needs of an [`IdentifierDesign`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stage {
+    /// c = 1 - e^(-λT)
+    pub c: f32,
+    pub scale: f32,
+}
+
 impl Cascade {
     /// One step with the position `y` (relative to any fixed origin) and the input term `s` = S/T² of the identity.
     /// Every 32 steps or sooner [`fold`](Self::fold) is due.
     #[inline(always)]
     pub fn step(&mut self, y: f32, s: f32, design: &IdentifierDesign, at: &Coefficients) {
-        let c = design.c;
+        self.step_at(y, s, &design.stage(), at);
+    }
+
+    #[inline(always)]
+    pub(crate) fn step_at(&mut self, y: f32, s: f32, stage: &Stage, at: &Coefficients) {
+        let Stage { c, scale } = *stage;
         self.x3.add(c * (at.b3 * y + KEEP_NORMAL - self.x3.value()));
         self.x2.add(c * (at.b2 * y + self.x3.value() + KEEP_NORMAL - self.x2.value()));
         self.x1.add(c * (at.b1 * y + self.x2.value() + KEEP_NORMAL - self.x1.value()));
-        self.x6.add(c * (at.g * (s * design.scale) + KEEP_NORMAL - self.x6.value()));
+        self.x6.add(c * (at.g * (s * scale) + KEEP_NORMAL - self.x6.value()));
         self.x5.add(c * (self.x6.value() - self.x5.value()));
         self.x4.add(c * (self.x5.value() - self.x4.value()));
     }

@@ -9,6 +9,7 @@
 //! one rounded constant: once the window is open they are in the proportion 1 : -2 : 1 exactly, and a position that stays
 //! leaves nothing in ẑ2.
 
+use super::cascade::Stage;
 use crate::error::ConfigError;
 use crate::tuning::{Decay, Tuning, checked_period};
 use crate::window::{Window, WindowDesign};
@@ -84,6 +85,10 @@ impl IdentifierDesign {
     /// Moves the window of the weights to the next step.
     pub fn step(&self, window: &mut Window) {
         window.step(&self.window);
+    }
+
+    pub(crate) const fn stage(&self) -> Stage {
+        Stage { c: self.c, scale: self.scale }
     }
 
     /// The square of the scale: by how much sums of products are larger than in physical units.

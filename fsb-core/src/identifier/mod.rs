@@ -25,6 +25,7 @@ mod unit;
 
 pub use block::{BlockDesign, BlockMean, BlockMeans};
 pub use cascade::Cascade;
+pub(crate) use cascade::Stage;
 pub use coefficients::{Coefficients, IdentifierDesign};
 pub use free_state::FreeState;
 pub(crate) use free_state::{Completed, Hypothesis};

@@ -92,7 +92,13 @@ impl Observer {
         }
     }
 
-    /// ŷ at the last sample plus `ahead`, `gains` being those of that sample. Rounded once.
+    /// ŷ at the last sample, `gains` being those of that sample.
+    #[inline(always)]
+    pub(crate) fn corrected(&self, gains: &Gains) -> f32 {
+        self.y - gains.m1 * self.r
+    }
+
+    /// The same plus `ahead`. Rounded once.
     #[inline(always)]
     pub fn position(&self, ahead: f32, gains: &Gains) -> f32 {
         self.y + (ahead - gains.m1 * self.r)

@@ -134,26 +134,32 @@ pub(crate) struct ParameterState {
     stepped: u8,
     /// Σ ω ẑ0 over the coarse steps.
     information: Accumulator,
+    pub nominal: Option<f32>,
+    rule: CheckedRule,
 }
 
 impl ParameterState {
-    /// Nothing known: no quotient, and a variance above any limit.
-    const START: Self = Self {
-        ratio: Ratio::EMPTY,
-        value: 0.0,
-        variance: f32::MAX,
-        status: ParameterStatus::Settling,
-        read: false,
-        credible: false,
-        stale: false,
-        members: 1,
-        stepped: 0,
-        information: Accumulator::ZERO,
-    };
+    /// Nothing known, to be read out of so many axes: no quotient, and a variance above any limit.
+    pub const fn start(members: u8, nominal: Option<f32>, rule: CheckedRule) -> Self {
+        Self {
+            ratio: Ratio::EMPTY,
+            value: 0.0,
+            variance: f32::MAX,
+            status: ParameterStatus::Settling,
+            read: false,
+            credible: false,
+            stale: false,
+            members,
+            stepped: 0,
+            information: Accumulator::ZERO,
+            nominal,
+            rule,
+        }
+    }
 
-    /// Nothing known, to be read out of so many axes.
-    pub const fn start(members: u8) -> Self {
-        Self { members, ..Self::START }
+    /// Forgets what is known.
+    pub fn restart(&mut self, members: u8) {
+        *self = Self::start(members, self.nominal, self.rule);
     }
 
     /// One of its axes no longer takes part.
@@ -215,7 +221,8 @@ impl ParameterState {
 
     /// The quotient of a parameter that is valid and stays so. False where it has to be [`read`](Self::read) instead.
     #[inline(always)]
-    pub fn read_on(&mut self, rule: &CheckedRule) -> bool {
+    pub fn read_on(&mut self) -> bool {
+        let rule = &self.rule;
         self.ratio.fold();
         let value = self.ratio.numerator_total() / self.ratio.denominator_total();
         let limit = rule.limit_to_stay * (value * value);
@@ -228,19 +235,20 @@ impl ParameterState {
     }
 
     /// The quotient from the sums as they are, and its status.
-    pub fn read(&mut self, settled: bool, rule: &CheckedRule) {
-        if self.ratio.denominator() > 0.0 && self.read_on(rule) {
+    pub fn read(&mut self, settled: bool) {
+        if self.ratio.denominator() > 0.0 && self.read_on() {
             return;
         }
         if self.ratio.denominator() > 0.0 {
             self.value = self.ratio.numerator() / self.ratio.denominator();
             self.read = true;
         }
-        self.judge(settled, rule);
+        self.judge(settled);
     }
 
     #[inline(never)]
-    fn judge(&mut self, settled: bool, rule: &CheckedRule) {
+    fn judge(&mut self, settled: bool) {
+        let rule = &self.rule;
         let value2 = self.value * self.value;
         let in_range = self.value >= rule.min && self.value <= rule.max;
         self.credible = self.read && in_range && self.variance <= value2;

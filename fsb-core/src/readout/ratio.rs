@@ -79,6 +79,18 @@ impl Ratio {
         informative
     }
 
+    /// [`add`](Self::add) for least squares over all samples alike. Cost: 5 operations.
+    #[inline(always)]
+    pub(crate) fn add_plain(&mut self, z2: f32, z0: f32) -> bool {
+        let square = z0 * z0;
+        let informative = square >= Self::NOTHING;
+        if informative {
+            self.numerator.add(z0 * z2);
+            self.denominator.add(square);
+        }
+        informative
+    }
+
     /// Moves collected steps into totals.
     #[inline(always)]
     pub fn fold(&mut self) {

@@ -1,0 +1,132 @@
+//! An axis's block through the cascade, and into its parameter's sums.
+
+use core::mem;
+
+use super::axis::Axis;
+use super::design::Common;
+use super::shared::IdentifierClock;
+use crate::identifier::{BlockMean, Coefficients, Stage};
+use crate::readout::{ParameterState, weight};
+
+/// What all axes need in a round of single samples.
+#[derive(Clone, Copy)]
+pub(super) struct SingleRound {
+    pub stage: Stage,
+    pub at: Coefficients,
+    pub zu: f32,
+    /// The window is zero in the first two samples.
+    pub open: bool,
+}
+
+impl Axis {
+    /// Takes the mean of a completed block through the cascade into the parameter's sums, and folds the cascade's on the way.
+    #[inline(always)]
+    pub fn identify_block(
+        &mut self,
+        mean: BlockMean,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        self.cascade.step_folded(mean.y, mean.s, &common.identifier, &clock.at);
+        let mut z2 = self.cascade.z2();
+        if common.any_drift {
+            z2 -= self.own.drift * clock.unit.zu();
+        }
+        // The window is zero in the first two blocks.
+        if self.tells(common) && clock.blocks > 2 {
+            self.read_out(z2, clock.stride == 0, clock, parameter, common);
+        }
+    }
+
+    /// The sample just taken, a block by itself, through the cascade into the parameter's sums. Sums are not folded.
+    #[inline(always)]
+    pub fn identify_single(
+        &mut self,
+        round: &SingleRound,
+        coarse: bool,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        let mean = self.block.single(self.observer.measurement() - self.origin, self.moments);
+        self.cascade.step_at(mean.y, mean.s, &round.stage, &round.at);
+        let z2 = self.cascade.z2() - self.own.drift * round.zu;
+        if self.tells(common) && round.open {
+            self.read_out(z2, coarse, clock, parameter, common);
+        }
+    }
+
+    /// A block of predictions alone says nothing that was not known. To be asked once a block.
+    #[inline(always)]
+    fn tells(&mut self, common: &Common) -> bool {
+        self.missed == 0 || u32::from(mem::take(&mut self.missed)) < common.block_length
+    }
+
+    /// `coarse`: it is the axis's turn for a coarse step.
+    #[inline(always)]
+    fn read_out(
+        &mut self,
+        z2: f32,
+        coarse: bool,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        if !common.plain {
+            self.read_out_generally(z2, coarse, clock, parameter, common);
+            return;
+        }
+        let z0 = self.cascade.z0();
+        if parameter.ratio.add_plain(z2, z0) && coarse {
+            self.coarse_step(z2, z0, clock, parameter, common);
+        }
+    }
+
+    #[inline(never)]
+    fn read_out_generally(
+        &mut self,
+        z2: f32,
+        coarse: bool,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        let z0 = self.cascade.z0();
+        if parameter.ratio.add(common.readout, z2, z0, common.forgetting) && coarse {
+            self.coarse_step(z2, z0, clock, parameter, common);
+        }
+    }
+
+    /// Every D-th block: the noise level, and how noise reaches k̂.
+    #[inline(never)]
+    fn coarse_step(
+        &mut self,
+        z2: f32,
+        z0: f32,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        let covariance = &common.covariance;
+        // The covariance of the cascade is that of a filled one from its third step on.
+        if clock.blocks > 2 * covariance.steps {
+            let step = self.observer.innovation() - self.innovation_before;
+            // With the quotient of this very moment: the one read last may be from before the take-off.
+            let residual = z2 - parameter.ratio.quotient() * z0;
+            self.noise.add(
+                step * step * common.innovation_to_mean,
+                covariance.stride * (residual * residual) / (clock.shape.variance() * common.identifier.scale2()),
+            );
+        }
+        let (up, down) = weight(common.readout, z2, z0);
+        let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
+        self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
+        parameter.step_coarsely(covariance.stride * down * z0, covariance.forgetting);
+    }
+
+    /// σ² var a, this axis's share of the variance of the numerator of k̂; `None` while the noise level is not known.
+    pub fn numerator_variance(&self, per_stride: f32) -> Option<f32> {
+        if self.noise.is_known() { Some(self.noise.variance() * per_stride * self.noise_sum.value()) } else { None }
+    }
+}

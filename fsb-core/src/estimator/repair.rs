@@ -1,0 +1,67 @@
+//! Measurements that did not come, or cannot be right.
+
+use super::axis::{Clocks, Source};
+use super::parts::{Frame, Parts, parameter_of};
+
+impl Parts<'_> {
+    pub fn count_missing(&mut self, y: &[f32]) {
+        let Frame { common, progress, .. } = &mut *self.frame;
+        for y in y {
+            if y.abs() <= common.position_limit {
+                continue;
+            }
+            progress.counters.missed = progress.counters.missed.saturating_add(1);
+            if !y.is_nan() {
+                progress.counters.rejected_measurements = progress.counters.rejected_measurements.saturating_add(1);
+            }
+        }
+    }
+
+    /// First measurements, missing ones, and ones that cannot be right.
+    #[inline(never)]
+    pub fn repair_positions(&mut self, y: &mut [f32], m1: f32) {
+        let Frame { common, progress, axes } = &mut *self.frame;
+        progress.all_measured = true;
+        for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {
+            let parameter = self.parameters.get_mut(parameter_of(index, self.parameters));
+            if y.abs() <= common.position_limit {
+                axis.gap = 0;
+                if !axis.measured {
+                    axis.measured = true;
+                    axis.observer.start(*y);
+                    let late = if progress.observer.count > 0 { common.late_settle } else { 1 };
+                    axis.settled_at = progress.observer.count.saturating_add(late.max(common.state_settle));
+                    // A late one may find a parameter that the others have identified.
+                    let late = progress.observer.count > 0 && axis.source == Source::Nominal;
+                    if (late || axis.source == Source::Nothing)
+                        && let Some(parameter) = parameter
+                    {
+                        let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };
+                        axis.change_source(parameter, clocks, common);
+                    }
+                    axis.decide_use();
+                }
+                continue;
+            }
+            axis.missed = axis.missed.saturating_add(1);
+            axis.gap = axis.gap.saturating_add(1);
+            let predicted = axis.observer.predict(axis.moments, &axis.model, m1);
+            if axis.measured && predicted.abs() <= common.position_limit {
+                *y = predicted;
+            } else {
+                // Never measured, or predicted out of all bounds: lost until it is measured again.
+                if axis.present
+                    && let Some(parameter) = parameter
+                {
+                    parameter.leave();
+                }
+                axis.measured = false;
+                axis.present = false;
+                axis.observer.start(0.0);
+                axis.decide_use();
+                *y = 0.0;
+            }
+            progress.all_measured = false;
+        }
+    }
+}
