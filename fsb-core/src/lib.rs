@@ -8,6 +8,7 @@ pub mod attitude;
 pub mod control;
 pub mod error;
 pub mod estimator;
+pub mod guard;
 pub mod identifier;
 pub mod moments;
 pub mod observer;

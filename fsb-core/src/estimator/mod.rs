@@ -14,6 +14,7 @@
 //! | `advance` | what a measurement instant does |
 //! | `repair` | measurements that did not come, or cannot be right |
 //! | `parts` | an estimator without its shape: code that is there once for all shapes |
+//! | `expectation` | what the next measurement should be, for a gate in front |
 //! | `readings` | what is handed out |
 //! | `output` | the types of that |
 
@@ -21,6 +22,7 @@ mod advance;
 mod axis;
 mod config;
 mod design;
+mod expectation;
 mod identify;
 mod output;
 mod parts;

@@ -80,6 +80,11 @@ impl Observer {
         self.y + (self.w.value() + (model.k_t2 * moments.j2 + 0.5 * model.c_t2) - m1 * self.r)
     }
 
+    /// Moves the origin of positions: everything measured is larger by `by` from now on.
+    pub(crate) fn translate(&mut self, by: f32) {
+        self.y += by;
+    }
+
     /// Moves collected steps into totals, and ends an innovation and a velocity that have died away.
     #[inline(always)]
     pub fn fold(&mut self) {

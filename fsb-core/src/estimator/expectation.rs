@@ -1,0 +1,59 @@
+//! What the next measurement should be, for a gate in front.
+
+use super::Estimator;
+use super::output::OutOfStep;
+
+impl<const N: usize, const P: usize> Estimator<N, P> {
+    /// Whether a measurement may be given now.
+    ///
+    /// # Errors
+    /// As [`measure`](Self::measure).
+    pub fn in_step(&self) -> Result<(), OutOfStep> {
+        let progress = &self.frame.progress;
+        if progress.started && !self.is_due() {
+            return Err(OutOfStep { missing: self.frame.common.substeps - progress.substep });
+        }
+        Ok(())
+    }
+
+    /// Whether this is a measurement instant at which nothing has been measured yet.
+    pub const fn is_due(&self) -> bool {
+        self.frame.progress.substep >= self.frame.common.substeps
+    }
+
+    /// Whether every axis has been measured at one instant.
+    pub const fn has_started(&self) -> bool {
+        self.frame.progress.started
+    }
+
+    /// The measurements to be expected at the present measurement instant (m or rad); `None` for an axis that has not been
+    /// measured yet. Cost: 8 operations an axis.
+    pub fn expected(&self) -> [Option<f32>; N] {
+        let m1 = self.frame.progress.observer.gains.m1();
+        self.frame
+            .axes
+            .each_ref()
+            .map(|axis| axis.measured.then(|| axis.observer.predict(axis.moments, &axis.model, m1)))
+    }
+
+    /// Moves the origins of the axes by `by` (m or rad): measurements are larger by that from now on. Velocities and the
+    /// identification do not notice, as the plant is translation invariant.
+    pub fn translate(&mut self, by: &[f32; N]) {
+        for (axis, &by) in self.frame.axes.iter_mut().zip(by) {
+            if by.is_finite() {
+                axis.observer.translate(by);
+                axis.origin += by;
+            }
+        }
+    }
+
+    /// The limit of a measurement's magnitude.
+    pub(crate) const fn position_limit(&self) -> f32 {
+        self.frame.common.position_limit
+    }
+
+    /// The variance of an innovation's step for measurement noise of the variance `noise`.
+    pub(crate) fn innovation_step_variance(&self, noise: f32) -> f32 {
+        noise / (self.frame.common.innovation_to_mean * self.frame.common.block_length as f32)
+    }
+}

@@ -1,0 +1,126 @@
+//! One axis: its noise level, and whether a measurement can be true.
+
+use super::config::GuardDesign;
+use super::verdict::Verdict;
+
+/// What the gate of one axis remembers.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Gate {
+    /// V: the mean square of the innovation's step.
+    level: f32,
+    /// Values in it; saturates.
+    values: u16,
+    /// Measurements not used since the last one that was.
+    gap: u16,
+    /// Improbable measurements in a row that agree with each other.
+    run: u16,
+    /// How often the last measurement has come again.
+    repeated: u16,
+    /// The innovation of the last measurement that was used.
+    innovation: f32,
+    /// That of the last improbable one.
+    candidate: f32,
+    /// The last measurement, used or not.
+    last: f32,
+}
+
+impl Gate {
+    /// Values before which the level is not trusted.
+    const ENOUGH: u16 = 8;
+    /// The longest memory of the level, in values.
+    const MEMORY: u16 = 128;
+    /// One value counts for no more than so many times the level: an outlier that passed does not open the gate.
+    const MOST: f32 = 16.0;
+    /// The level cannot come closer to the subnormal numbers.
+    const LEAST: f32 = 1e-24;
+
+    /// A level known beforehand, of the innovation's steps.
+    pub fn expecting(level: Option<f32>) -> Self {
+        match level {
+            Some(level) => Self { level, values: Self::ENOUGH, ..Self::default() },
+            None => Self::default(),
+        }
+    }
+
+    /// Whether `y` can be true where `expected` is predicted (`None`: nothing is). `limit` is the physical one, and
+    /// `settled` tells that the observer's first few measurements, whose innovations are large, are over. Cost: about 35
+    /// operations.
+    pub fn judge(&mut self, y: f32, expected: Option<f32>, limit: f32, settled: bool, design: &GuardDesign) -> Verdict {
+        let verdict = self.verdict(y, expected, limit, settled, design);
+        if verdict.is_used() {
+            self.gap = 0;
+            self.run = 0;
+        } else {
+            self.gap = self.gap.saturating_add(1);
+        }
+        verdict
+    }
+
+    fn verdict(&mut self, y: f32, expected: Option<f32>, limit: f32, settled: bool, design: &GuardDesign) -> Verdict {
+        if !y.is_finite() {
+            return Verdict::NonFinite;
+        }
+        if y.abs() > limit {
+            return Verdict::BeyondLimit;
+        }
+        if self.is_frozen(y, design) {
+            return Verdict::Frozen;
+        }
+        let Some(expected) = expected else {
+            self.innovation = 0.0;
+            return Verdict::Taken;
+        };
+        let innovation = y - expected;
+        let step = innovation - self.innovation;
+        if !settled {
+            self.innovation = innovation;
+            return Verdict::Taken;
+        }
+        let noise = design.sigmas2 * self.level;
+        let gap = f32::from(self.gap);
+        let stretch = 1.0 + design.lambda_t * gap;
+        // A large innovation is on its way back to zero.
+        let known = design.step + design.fall * gap * gap + design.decay * self.innovation.abs();
+        let trusted = self.values >= Self::ENOUGH;
+        if !trusted || step * step <= noise * stretch * stretch + known * known {
+            if self.gap == 0 {
+                self.learn(step * step);
+            }
+            self.innovation = innovation;
+            return Verdict::Taken;
+        }
+        // Predicted all along from the same state: only a jump keeps its distance.
+        let apart = innovation - self.candidate;
+        let agree = apart * apart <= noise + design.step * design.step;
+        self.run = if self.run > 0 && agree { self.run.saturating_add(1) } else { 1 };
+        self.candidate = innovation;
+        if self.run >= design.jump_after {
+            // The next innovation is about that of before the jump.
+            return Verdict::Jumped(step);
+        }
+        Verdict::Improbable
+    }
+
+    /// Nothing was measured.
+    pub fn miss(&mut self) {
+        self.gap = self.gap.saturating_add(1);
+    }
+
+    fn is_frozen(&mut self, y: f32, design: &GuardDesign) -> bool {
+        self.repeated = if y.to_bits() == self.last.to_bits() { self.repeated.saturating_add(1) } else { 0 };
+        self.last = y;
+        design.frozen_after > 0 && self.repeated > design.frozen_after
+    }
+
+    fn learn(&mut self, square: f32) {
+        let most = Self::MOST * self.level;
+        let square = if self.values >= Self::ENOUGH && square > most { most } else { square };
+        if self.values < Self::MEMORY {
+            self.values += 1;
+        }
+        self.level += (square - self.level) / f32::from(self.values);
+        if self.level < Self::LEAST {
+            self.level = Self::LEAST;
+        }
+    }
+}

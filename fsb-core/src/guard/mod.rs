@@ -1,0 +1,33 @@
+//! Never fooled by a measurement: an estimator behind a gate.
+//!
+//! [`Guarded`] has the calls of [`Estimator`](crate::Estimator). Before a measurement reaches it, each axis is asked
+//! whether it can be true:
+//!
+//! * finite and within its physical limit,
+//! * no repetition of a sensor that has frozen,
+//! * probable: the innovation's step d = r\[n\] - r\[n-1\], in which what a wrong model adds to both cancels, within
+//!   d² <= s² V (1 + λTn)² + (floor + A₀ + A₂ n² + 3λT |r\[n-1\]|)²,
+//!
+//! V being the mean of d² learned so far, n the measurements missed before, A₀ = a T/(eλ) and A₂ = a T²/2 what an
+//! acceleration a that the model does not know can add to an innovation from one sample to the next, and in a gap, and
+//! the last term what an innovation on its way back to zero changes by.
+//!
+//! What is not taken is counted by reason and predicted instead. Improbable measurements in a row that agree with each other
+//! are a jump of the sensor's origin: positions are moved by it, and as the plant is translation invariant, velocity and
+//! identification go on as if nothing had happened. The estimator itself pays nothing for the gate.
+//!
+//! | file | what |
+//! |---|---|
+//! | `config` | plain data, and the same validated |
+//! | `gate` | one axis: its noise level, and whether a measurement can be true |
+//! | `guarded` | an estimator behind the gates |
+//! | `verdict` | what became of a measurement |
+
+mod config;
+mod gate;
+mod guarded;
+mod verdict;
+
+pub use config::{GuardConfig, GuardDesign};
+pub use guarded::Guarded;
+pub use verdict::{Rejections, Verdict};

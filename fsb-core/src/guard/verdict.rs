@@ -1,0 +1,79 @@
+//! What became of a measurement.
+
+use core::fmt;
+
+/// What became of a measurement of one axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Verdict {
+    /// It was used.
+    Taken,
+    /// There was none.
+    #[default]
+    Missing,
+    /// NaN or infinite.
+    NonFinite,
+    /// Beyond the physical limit.
+    BeyondLimit,
+    /// It cannot have come there from the last one.
+    Improbable,
+    /// The same bits for longer than a sensor that lives gives them.
+    Frozen,
+    /// The sensor's origin has jumped by so much (m or rad): positions are moved by it, and the measurement was used.
+    Jumped(f32),
+}
+
+impl Verdict {
+    /// Whether the measurement was used.
+    pub const fn is_used(self) -> bool {
+        matches!(self, Self::Taken | Self::Jumped(_))
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Taken => out.write_str("taken"),
+            Self::Missing => out.write_str("missing"),
+            Self::NonFinite => out.write_str("not finite"),
+            Self::BeyondLimit => out.write_str("beyond the limit"),
+            Self::Improbable => out.write_str("improbable"),
+            Self::Frozen => out.write_str("frozen"),
+            Self::Jumped(by) => write!(out, "jumped by {by}"),
+        }
+    }
+}
+
+/// Measurements that were not used, by reason, over all axes. They only rise, and stop at the largest number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Rejections {
+    /// Did not come.
+    pub missing: u32,
+    /// NaN or infinite.
+    pub non_finite: u32,
+    /// Beyond the physical limit.
+    pub beyond_limit: u32,
+    /// Failed the gate.
+    pub improbable: u32,
+    /// Repeated for too long.
+    pub frozen: u32,
+    /// Jumps of a sensor's origin.
+    pub jumps: u32,
+}
+
+impl Rejections {
+    pub(super) fn count(&mut self, verdict: Verdict) {
+        let counter = match verdict {
+            Verdict::Taken => return,
+            Verdict::Missing => &mut self.missing,
+            Verdict::NonFinite => &mut self.non_finite,
+            Verdict::BeyondLimit => &mut self.beyond_limit,
+            Verdict::Improbable => &mut self.improbable,
+            Verdict::Frozen => &mut self.frozen,
+            Verdict::Jumped(_) => &mut self.jumps,
+        };
+        *counter = counter.saturating_add(1);
+    }
+}
