@@ -6,6 +6,8 @@
 //! (fast two-sum). As long as it is folded before `recent` grows to a fair share of `total`, the pair is good for 40 bits or more.
 //! Cost: one operation a step, one to read, three to fold.
 
+use crate::snapshot::stored;
+
 /// `total + recent`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Accumulator {
@@ -60,3 +62,5 @@ impl Accumulator {
         [self.total, self.recent]
     }
 }
+
+stored!(Accumulator { total, recent });

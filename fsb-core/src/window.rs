@@ -13,6 +13,7 @@
 //! Cost: 15 operations a step, 9 for the neighbours; no transcendental.
 
 use crate::accumulator::Accumulator;
+use crate::snapshot::stored;
 use crate::tuning::Decay;
 
 /// Constants of the window.
@@ -97,5 +98,15 @@ impl Window {
             }
             self.h = Accumulator::new(self.limit - self.e.value());
         }
+    }
+}
+
+stored!(Window { e, h, limit });
+
+impl Window {
+    /// Whether it is a window at any sample.
+    pub(crate) fn is_sound(&self) -> bool {
+        let within = |x: f32| (0.0..=1.000_1).contains(&x);
+        within(self.e.value()) && within(self.h.value()) && (0.999..=1.001).contains(&self.limit)
     }
 }

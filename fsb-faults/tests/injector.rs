@@ -112,7 +112,8 @@ fn jitter_is_a_share_of_the_step_and_quanta_are_quanta() {
 #[test]
 fn faults_do_not_know_of_each_other() {
     let alone = run::<1>(&FaultConfig { drop: 0.3, ..FaultConfig::default() }, 10);
-    let both = run::<1>(&FaultConfig { drop: 0.3, spike: 0.5, spike_size: 1.0, nan: 0.1, ..FaultConfig::default() }, 10);
+    let both =
+        run::<1>(&FaultConfig { drop: 0.3, spike: 0.5, spike_size: 1.0, nan: 0.1, ..FaultConfig::default() }, 10);
     assert!(alone.iter().zip(&both).all(|(a, b)| a.1.is_none() == b.1.is_none()));
 }
 

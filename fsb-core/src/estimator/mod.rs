@@ -15,6 +15,7 @@
 //! | `repair` | measurements that did not come, or cannot be right |
 //! | `parts` | an estimator without its shape: code that is there once for all shapes |
 //! | `expectation` | what the next measurement should be, for a gate in front |
+//! | `stored` | what a snapshot holds |
 //! | `readings` | what is handed out |
 //! | `output` | the types of that |
 
@@ -31,6 +32,7 @@ mod repair;
 mod schedule;
 mod shared;
 mod step;
+mod stored;
 #[cfg(test)]
 mod tests;
 

@@ -5,6 +5,7 @@ use super::output::Counters;
 use crate::identifier::{Coefficients, UnitChain};
 use crate::observer::Gains;
 use crate::readout::NoiseShape;
+use crate::snapshot::stored;
 use crate::window::Window;
 
 /// Where the estimator is in time.
@@ -154,5 +155,23 @@ impl IdentifierClock {
             self.unit.step(identifier, &self.at);
         }
         self.blocks = self.blocks.saturating_add(1);
+    }
+}
+
+stored!(ObserverClock { window, gains, count, until, striding });
+stored!(IdentifierClock { window, at, unit, shape, position, began, blocks, stride, settled });
+
+impl ObserverClock {
+    /// Whether its numbers are possible.
+    pub fn is_sound(&self) -> bool {
+        let within = |x: f32| (0.0..=1.000_1).contains(&x);
+        self.window.is_sound() && within(self.gains.m1()) && within(self.gains.t_l2())
+    }
+}
+
+impl IdentifierClock {
+    /// Whether its numbers are possible.
+    pub fn is_sound(&self) -> bool {
+        self.window.is_sound()
     }
 }

@@ -9,6 +9,7 @@
 //! M = 1 is the plain identity: s = 0, τ = 0, P = j2, V = j1.
 
 use crate::moments::InputMoments;
+use crate::snapshot::stored;
 
 /// Constants of the block means.
 #[derive(Clone, Copy, Debug)]
@@ -134,3 +135,5 @@ pub(crate) struct Past {
     pub phi: f32,
     pub psi: f32,
 }
+
+stored!(BlockMeans { sum_y, sum_phi, phi, psi, pending, past });

@@ -11,6 +11,7 @@
 use super::gains::{Gains, ObserverDesign};
 use crate::accumulator::Accumulator;
 use crate::moments::InputMoments;
+use crate::snapshot::stored;
 
 /// Innovations, and motions in a period, below this are none, m or rad: they end at zero instead of decaying through the
 /// subnormal numbers.
@@ -131,5 +132,22 @@ impl Observer {
     #[inline(always)]
     pub const fn measurement(&self) -> f32 {
         self.y
+    }
+}
+
+stored!(Observer { y, r, w });
+
+impl Observer {
+    /// Whether position, innovation and motion in a period are all within `most`.
+    pub(crate) fn is_within(&self, most: f32) -> bool {
+        self.y.abs() <= most && self.r.abs() <= most && self.w.value().abs() <= most
+    }
+}
+
+impl Model {
+    /// Whether k is one that can be configured, and the drift none or that of the axis, `c_t2`.
+    pub(crate) fn is_sound(&self, c_t2: f32, period2: f32) -> bool {
+        let k = self.k_t2 / period2;
+        (0.0..=1.001e15).contains(&k) && (self.c_t2 == 0.0 || self.c_t2 == c_t2)
     }
 }

@@ -58,6 +58,11 @@ impl ObserverDesign {
 }
 
 impl ObserverDesign {
+    /// 1 - e^(-λT)
+    pub(crate) const fn c(&self) -> f32 {
+        self.c
+    }
+
     /// Moves the window of the gains to the next sample.
     pub fn step(&self, window: &mut Window) {
         window.step(&self.window);

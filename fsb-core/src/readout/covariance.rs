@@ -13,6 +13,7 @@
 //! weighing the mean D-fold is the same filter at a coarser step (design, section 11).
 
 use crate::identifier::{Coefficients, IdentifierDesign};
+use crate::snapshot::stored;
 use crate::tuning::Tuning;
 use crate::window::Window;
 
@@ -132,3 +133,6 @@ impl NoiseCross {
         weight * (2.0 * faded[0] + weight * shape.p11)
     }
 }
+
+stored!(NoiseShape { p11, p12, p13, p22, p23, p33 });
+stored!(NoiseCross { q });

@@ -8,6 +8,8 @@
 //!
 //! The larger one counts. Each is a mean over the past, at first of all values, later over the last 256.
 
+use crate::snapshot::stored;
+
 /// Two running means of σ².
 #[derive(Clone, Copy, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -73,3 +75,5 @@ pub(crate) fn innovation_step_gain(p: f32) -> f32 {
     }
     sum
 }
+
+stored!(NoiseLevel { fine, slow, values });

@@ -3,6 +3,7 @@
 use super::ratio::Ratio;
 use crate::accumulator::Accumulator;
 use crate::error::{ConfigError, finite, positive};
+use crate::snapshot::{Archive, Stored, stored};
 use core::fmt;
 
 /// An identified parameter: k of (15), 1/m or 1/I.
@@ -268,3 +269,20 @@ impl ParameterState {
 
 /// Twice the standard deviation at which a parameter becomes valid is the one at which it no longer is.
 const HYSTERESIS: f32 = 4.0;
+
+stored!(ParameterState { ratio, value, variance, status, read, credible, stale, members, stepped, information });
+
+impl Stored for ParameterStatus {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        let mut code = *self as u8;
+        code.pass(archive);
+        match code {
+            0 => *self = Self::Settling,
+            1 => *self = Self::Unexcited,
+            2 => *self = Self::Uncertain,
+            3 => *self = Self::OutOfRange,
+            4 => *self = Self::Valid,
+            _ => archive.refuse(),
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 use crate::accumulator::Accumulator;
 use crate::error::{ConfigError, positive};
+use crate::snapshot::stored;
 
 /// How k is read out of ẑ2 = k ẑ0 (ẑ2 with the known drift removed).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -125,3 +126,5 @@ impl Ratio {
         self.denominator.value()
     }
 }
+
+stored!(Ratio { numerator, denominator });

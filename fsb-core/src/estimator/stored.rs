@@ -1,0 +1,117 @@
+//! What a snapshot holds of an estimator, and what it must obey.
+
+use super::Estimator;
+use super::axis::{Axis, Source};
+use super::output::Counters;
+use super::shared::Progress;
+use crate::snapshot::{Archive, Stored, stored};
+
+stored!(Counters { missed, rejected_measurements, rejected_inputs });
+stored!(Progress { observer, identifier, substep, started, all_measured, steady, counters });
+stored!(Axis {
+    observer,
+    model,
+    moments,
+    block,
+    origin,
+    innovation_before,
+    cascade,
+    cross,
+    noise_sum,
+    noise,
+    settled_at,
+    usable_at,
+    missed,
+    gap,
+    source,
+    measured,
+    begun,
+    present,
+});
+
+impl Stored for Source {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        let mut code = *self as u8;
+        code.pass(archive);
+        match code {
+            0 => *self = Self::Nothing,
+            1 => *self = Self::Provisional,
+            2 => *self = Self::Nominal,
+            3 => *self = Self::Identified,
+            _ => archive.refuse(),
+        }
+    }
+}
+
+impl<const N: usize, const P: usize> Stored for Estimator<N, P> {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        self.frame.progress.pass(archive);
+        self.frame.axes.pass(archive);
+        self.parameters.pass(archive);
+    }
+}
+
+impl<const N: usize, const P: usize> Estimator<N, P> {
+    /// Whether the state is one that this design can have come to.
+    pub(crate) fn is_sound(&self) -> bool {
+        let common = &self.frame.common;
+        let progress = &self.frame.progress;
+        let round = if common.block_length == 1 { 8 } else { common.block_length };
+        let clocks = progress.substep <= common.substeps
+            && progress.identifier.position < round
+            && (!progress.steady || progress.observer.count >= progress.identifier.began)
+            && progress.observer.is_sound()
+            && progress.identifier.is_sound();
+        // Positions are predicted within the limit or lost; a velocity crosses the whole range in a few periods at most.
+        let most = 4.0 * common.position_limit;
+        clocks
+            && self.frame.axes.iter().all(|axis| {
+                axis.model.is_sound(axis.own.drift_t2, common.period2)
+                    && axis.observer.is_within(most)
+                    && axis.origin.abs() <= most
+                    && axis.moments.j1.abs() <= 2.0 * common.input_limit
+                    && axis.moments.j2.abs() <= 2.0 * common.input_limit
+            })
+    }
+
+    /// Tells configurations apart: of two that differ in what a state depends on, all but one in 2^32 differ in this.
+    pub(crate) fn fingerprint(&self) -> u32 {
+        let common = &self.frame.common;
+        let mut hash = Fingerprint(0x811c_9dc5);
+        for word in [common.substeps, common.block_length, common.schedule.turn, common.parameter_settle] {
+            hash.add(word);
+        }
+        for word in [common.state_settle, common.readout as u32, common.covariance.steps, u32::from(common.any_drift)] {
+            hash.add(word);
+        }
+        for number in [common.period2, common.observer.c(), common.identifier.c, common.identifier.scale] {
+            hash.add(number.to_bits());
+        }
+        for number in [common.forgetting, common.position_limit, common.input_limit] {
+            hash.add(number.to_bits());
+        }
+        for tuning in [common.observer_tuning.lambda, common.observer_tuning.q, common.measurement_period] {
+            let bits = tuning.to_bits();
+            hash.add(bits as u32);
+            hash.add((bits >> 32) as u32);
+        }
+        for axis in &self.frame.axes {
+            hash.add(axis.own.drift.to_bits());
+        }
+        for parameter in &self.parameters {
+            hash.add(parameter.nominal.unwrap_or(0.0).to_bits());
+        }
+        hash.0
+    }
+}
+
+/// FNV-1a over words.
+struct Fingerprint(u32);
+
+impl Fingerprint {
+    fn add(&mut self, word: u32) {
+        for byte in word.to_le_bytes() {
+            self.0 = (self.0 ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+        }
+    }
+}

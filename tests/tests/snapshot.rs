@@ -1,0 +1,165 @@
+//! Snapshots: what is restored goes on to the last bit; what is no snapshot of this estimator is refused.
+
+use fsb_core::snapshot::SnapshotError;
+use fsb_core::{Estimator, EstimatorConfig};
+use fsb_sim_host::plant::{Motion, Recording, RecordingConfig, record};
+use proptest::prelude::*;
+
+const PERIOD: f64 = 1e-3;
+
+fn flight() -> Recording {
+    let motion = Motion { centre: 3.0, amplitude: 1.0, frequency: 1.3 };
+    record(&RecordingConfig { period: PERIOD, samples: 6000, drift: 0.0, motion, ..Default::default() })
+}
+
+fn config(block: u32) -> EstimatorConfig<2, 2> {
+    EstimatorConfig { block, noise_sd: Some(1e-4), nominal: [Some(1.0), None], ..EstimatorConfig::new(PERIOD) }
+}
+
+fn tick(estimator: &mut Estimator<2, 2>, flight: &Recording, n: usize) {
+    let (y, f) = (flight.positions[n] as f32, flight.forces[n] as f32);
+    // Every seventh sample of the second axis is missing.
+    estimator.measure(&[Some(y), (n % 7 != 3 || n == 0).then_some(-y)]).unwrap();
+    estimator.apply(&[f, -f]);
+}
+
+fn taken(estimator: &Estimator<2, 2>) -> Vec<u8> {
+    let mut bytes = vec![0; estimator.snapshot_length()];
+    assert_eq!(estimator.snapshot(&mut bytes), Ok(bytes.len()));
+    bytes
+}
+
+/// At any moment, with blocks of any length: the restored estimator and the one it was taken from never part.
+#[test]
+fn what_is_restored_goes_on_to_the_last_bit() {
+    let flight = flight();
+    for block in [1, 4, 10, 40] {
+        for moment in [0, 1, 2, 3, 17, 400, 1234, 4000] {
+            let mut original = Estimator::new(&config(block)).unwrap();
+            for n in 0..moment {
+                tick(&mut original, &flight, n);
+            }
+            let mut restored = Estimator::new(&config(block)).unwrap();
+            // Whatever it was doing before.
+            for n in 0..123 {
+                tick(&mut restored, &flight, n);
+            }
+            restored.restore(&taken(&original)).unwrap();
+            for n in moment..moment + 1500 {
+                assert_eq!(taken(&original), taken(&restored), "block {block}, {moment}, {n}");
+                tick(&mut original, &flight, n);
+                tick(&mut restored, &flight, n);
+            }
+            assert_eq!(original.parameters(), restored.parameters());
+            assert_eq!(original.states(), restored.states());
+        }
+    }
+}
+
+#[test]
+fn others_are_refused() {
+    let flight = flight();
+    let mut estimator = Estimator::new(&config(10)).unwrap();
+    for n in 0..2000 {
+        tick(&mut estimator, &flight, n);
+    }
+    let good = taken(&estimator);
+    let refused = |bytes: &[u8]| {
+        let mut other = estimator;
+        let refused = other.restore(bytes).unwrap_err();
+        assert_eq!(taken(&other), good, "it must stay as it was");
+        refused
+    };
+    assert_eq!(refused(&[]), SnapshotError::NotASnapshot);
+    assert_eq!(refused(&good[..good.len() - 1]), SnapshotError::Shape);
+    assert_eq!(refused(&[good.clone(), vec![0]].concat()), SnapshotError::Shape);
+    let changed = |at: usize, to: u8| {
+        let mut bytes = good.clone();
+        bytes[at] = to;
+        bytes
+    };
+    assert_eq!(refused(&changed(0, b'X')), SnapshotError::NotASnapshot);
+    assert_eq!(refused(&changed(3, 9)), SnapshotError::Version(9));
+    assert_eq!(refused(&changed(4, 3)), SnapshotError::Shape);
+    // Of another configuration, in every respect that a state depends on.
+    let base = config(10);
+    let others = [
+        config(11),
+        EstimatorConfig { period: 2e-3, ..base },
+        EstimatorConfig { observer: fsb_core::Tuning::from_lambda(11.0), ..base },
+        EstimatorConfig { identifier: fsb_core::Tuning::from_lambda(2.1), ..base },
+        EstimatorConfig { drift: [0.0, -9.81], ..base },
+        EstimatorConfig { nominal: [Some(1.1), None], ..base },
+        EstimatorConfig { position_limit: 10.0, ..base },
+        EstimatorConfig { parameter_settle: 1.0, ..base },
+    ];
+    for other in others {
+        let mut other = Estimator::new(&other).unwrap();
+        assert_eq!(other.restore(&good), Err(SnapshotError::Design));
+    }
+    let mut buffer = vec![0; good.len() - 1];
+    assert_eq!(estimator.snapshot(&mut buffer), Err(SnapshotError::BufferTooShort));
+}
+
+/// Any one bit: refused.
+#[test]
+fn a_flipped_bit_is_found() {
+    let flight = flight();
+    let mut estimator = Estimator::new(&config(10)).unwrap();
+    for n in 0..500 {
+        tick(&mut estimator, &flight, n);
+    }
+    let good = taken(&estimator);
+    for bit in 0..8 * good.len() {
+        let mut bytes = good.clone();
+        bytes[bit / 8] ^= 1 << (bit % 8);
+        assert!(estimator.restore(&bytes).is_err(), "bit {bit}");
+    }
+    assert_eq!(taken(&estimator), good);
+}
+
+/// CRC-32, so that a state made up can be sealed.
+fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
+    let end = bytes.len() - 4;
+    let mut crc = u32::MAX;
+    for byte in &bytes[..end] {
+        crc ^= u32::from(*byte);
+        for _ in 0..8 {
+            crc = if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 };
+        }
+    }
+    bytes[end..].copy_from_slice(&(!crc).to_le_bytes());
+    bytes
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, rng_seed: proptest::test_runner::RngSeed::Fixed(6), failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// A state made up, its checksum right: refused, or what follows is numbers and no panic.
+    #[test]
+    fn a_state_made_up_does_no_harm(words in prop::collection::vec((16_usize..600, any::<u32>()), 1..8), moment in 1_usize..1500) {
+        let flight = flight();
+        let mut estimator = Estimator::new(&config(4)).unwrap();
+        for n in 0..moment {
+            tick(&mut estimator, &flight, n);
+        }
+        let mut bytes = taken(&estimator);
+        for (at, word) in words {
+            let at = at / 4 * 4;
+            if at + 8 <= bytes.len() {
+                bytes[at..at + 4].copy_from_slice(&word.to_le_bytes());
+            }
+        }
+        if estimator.restore(&sealed(bytes)).is_ok() {
+            for n in moment..moment + 400 {
+                tick(&mut estimator, &flight, n);
+                for parameter in estimator.parameters().into_iter().flatten() {
+                    prop_assert!(parameter.value.is_finite() && parameter.variance.is_finite(), "{parameter:?}");
+                }
+                for state in estimator.states().into_iter().flatten() {
+                    prop_assert!(state.position.is_finite() && state.velocity.is_finite(), "{state:?}");
+                }
+            }
+        }
+    }
+}
