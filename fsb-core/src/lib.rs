@@ -13,6 +13,7 @@ pub mod moments;
 pub mod observer;
 pub mod readout;
 pub mod tuning;
+pub mod vehicle;
 pub mod window;
 
 pub use error::ConfigError;

@@ -44,6 +44,8 @@ pub enum ParameterStatus {
     OutOfRange,
     /// Usable.
     Valid,
+    /// Identified anew since a re-initialisation, and not valid yet: the value from before it stands in.
+    Held,
 }
 
 impl fmt::Display for ParameterStatus {
@@ -54,6 +56,7 @@ impl fmt::Display for ParameterStatus {
             Self::Uncertain => "uncertain",
             Self::OutOfRange => "out of range",
             Self::Valid => "valid",
+            Self::Held => "held",
         })
     }
 }
@@ -134,6 +137,8 @@ pub(crate) struct ParameterState {
     stepped: u8,
     /// Σ ω ẑ0 over the coarse steps.
     information: Accumulator,
+    /// What stands in until the quotient is valid.
+    held: Option<Parameter>,
     pub nominal: Option<f32>,
     rule: CheckedRule,
 }
@@ -152,6 +157,7 @@ impl ParameterState {
             members,
             stepped: 0,
             information: Accumulator::ZERO,
+            held: None,
             nominal,
             rule,
         }
@@ -160,6 +166,21 @@ impl ParameterState {
     /// Forgets what is known.
     pub fn restart(&mut self, members: u8) {
         *self = Self::start(members, self.nominal, self.rule);
+    }
+
+    /// Begins anew, the value so far standing in until the new one is valid.
+    pub fn hold(&mut self, members: u8) {
+        let held = self.valid();
+        self.restart(members);
+        if held.is_some() {
+            self.status = ParameterStatus::Held;
+            self.held = held;
+        }
+    }
+
+    /// The value that stands in for one that is not valid.
+    pub fn held_value(&self) -> Option<f32> {
+        self.held.map(|parameter| parameter.value)
     }
 
     /// One of its axes no longer takes part.
@@ -182,10 +203,11 @@ impl ParameterState {
         if self.credible { Some(self.value) } else { None }
     }
 
-    /// The parameter, where it is valid.
+    /// The parameter, where it is valid or held.
     pub fn valid(&self) -> Option<Parameter> {
         match self.status {
             ParameterStatus::Valid => Some(Parameter { value: self.value, variance: self.variance }),
+            ParameterStatus::Held => self.held,
             _ => None,
         }
     }
@@ -263,6 +285,11 @@ impl ParameterState {
         } else {
             ParameterStatus::Valid
         };
+        if self.status == ParameterStatus::Valid {
+            self.held = None;
+        } else if self.held.is_some() {
+            self.status = ParameterStatus::Held;
+        }
     }
 }
 
