@@ -41,6 +41,20 @@ impl ConfigError {
             | Self::Zero(name) => name,
         }
     }
+
+    /// The same about a parameter that is called `name` where the caller stands.
+    pub(crate) const fn renamed(self, name: &'static str) -> Self {
+        match self {
+            Self::NonFinite(_) => Self::NonFinite(name),
+            Self::NonPositive(_) => Self::NonPositive(name),
+            Self::Negative(_) => Self::Negative(name),
+            Self::OutOfRange(_) => Self::OutOfRange(name),
+            Self::TooFastForPeriod(_) => Self::TooFastForPeriod(name),
+            Self::TooSlowForPeriod(_) => Self::TooSlowForPeriod(name),
+            Self::InvertedRange(_) => Self::InvertedRange(name),
+            Self::Zero(_) => Self::Zero(name),
+        }
+    }
 }
 
 impl fmt::Display for ConfigError {

@@ -15,6 +15,7 @@ pub mod observer;
 pub mod readout;
 pub mod snapshot;
 pub mod tuning;
+pub mod vehicle;
 pub mod window;
 
 pub use error::ConfigError;

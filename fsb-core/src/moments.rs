@@ -24,6 +24,8 @@ pub struct InputMoments {
 pub struct Substep {
     /// 1/R
     share: f32,
+    /// 1/R²
+    share2: f32,
     /// 1/(2R²)
     half_share2: f32,
     /// 1/(6R²)
@@ -42,6 +44,7 @@ impl Substep {
         let share = 1.0 / f64::from(substeps);
         Ok(Self {
             share: share as f32,
+            share2: (share * share) as f32,
             half_share2: (share * share / 2.0) as f32,
             sixth_share2: (share * share / 6.0) as f32,
         })
@@ -71,5 +74,22 @@ impl InputMoments {
     pub fn ramp(&mut self, f0: f32, f1: f32, step: &Substep) {
         self.j2 += self.j1 * step.share + (f0 + f0 + f1) * step.sixth_share2;
         self.j1 += (f0 + f1) * (0.5 * step.share);
+    }
+
+    /// Appends a control period of an input with the moments `part`, that period being their unit of time:
+    /// j2 += j1/R + part.j2/R², j1 += part.j1/R. [`hold`](Self::hold) is (f, f/2), [`ramp`](Self::ramp) is
+    /// ((f0 + f1)/2, (2 f0 + f1)/6).
+    #[inline(always)]
+    pub fn append(&mut self, part: &Self, step: &Substep) {
+        self.j2 += self.j1 * step.share + part.j2 * step.share2;
+        self.j1 += part.j1 * step.share;
+    }
+
+    /// Appends a part in the same unit of time as what is there: j2 += j1 + part.j2, j1 += part.j1. What results are the sums
+    /// over so many periods, not their means.
+    #[inline(always)]
+    pub(crate) fn extend(&mut self, part: &Self) {
+        self.j2 += self.j1 + part.j2;
+        self.j1 += part.j1;
     }
 }

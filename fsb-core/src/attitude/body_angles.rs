@@ -7,6 +7,7 @@
 //! ϑ' is the body rate up to coning, so ϑ'' = ω' at any attitude, where the Euler angles of (10) only do near level. No
 //! trigonometry: the series of arcsin θ/sin θ is good to 2e-6 of a turn of 0.3 rad, which is the most that is taken.
 
+use super::rotation::{self, Matrix};
 use crate::accumulator::Accumulator;
 use core::fmt;
 
@@ -38,7 +39,7 @@ impl core::error::Error for AttitudeError {}
 /// Non-finite policy: refused, see [`AttitudeError`]. Cost: about 90 operations a measurement.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BodyAngles {
-    attitude: Option<[[f32; 3]; 3]>,
+    attitude: Option<Matrix>,
     angles: [Accumulator; 3],
 }
 
@@ -77,21 +78,40 @@ impl BodyAngles {
     ///
     /// # Errors
     /// As [`turn_to`](Self::turn_to).
-    pub fn turn_to_quaternion(&mut self, [w, x, y, z]: [f32; 4]) -> Result<[f32; 3], AttitudeError> {
+    pub fn turn_to_quaternion(&mut self, quaternion: [f32; 4]) -> Result<[f32; 3], AttitudeError> {
+        let [w, x, y, z] = quaternion;
         let norm2 = w * w + x * x + y * y + z * z;
         // Written so that NaN fails it.
         let unit = (norm2 - 1.0).abs() <= Self::TOLERANCE;
         if !unit {
             return Err(AttitudeError::NotARotation);
         }
-        self.turn_to(&[
-            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
-            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
-            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
-        ])
+        self.turn_to(&rotation::from_quaternion(quaternion))
     }
 
-    /// The angles at the last attitude taken.
+    /// A turn about the body's axes (rad) that is known otherwise, where an attitude is missing: the next one taken is then
+    /// compared with the attitude this leads to. Before the first attitude, and for a turn of more than 0.3 rad, nothing
+    /// happens.
+    pub fn turn_by(&mut self, turn: &[f32; 3]) {
+        let [x, y, z] = *turn;
+        let square = x * x + y * y + z * z;
+        if let Some(attitude) = self.attitude
+            && square <= 0.09
+            && let Some(by) = rotation::exponential(turn)
+        {
+            self.attitude = Some(rotation::product(&attitude, &by));
+            for (angle, a) in self.angles.iter_mut().zip(turn) {
+                angle.add_folded(*a);
+            }
+        }
+    }
+
+    /// R, body to world, by rows: the last attitude taken, and the turns given since.
+    pub const fn attitude(&self) -> Option<[[f32; 3]; 3]> {
+        self.attitude
+    }
+
+    /// The angles at the last attitude taken, and the turns given since.
     pub fn angles(&self) -> [f32; 3] {
         self.angles.map(|angle| angle.value())
     }

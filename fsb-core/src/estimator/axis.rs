@@ -18,6 +18,8 @@ pub(super) enum Source {
     Provisional,
     /// The configured k0.
     Nominal,
+    /// The k̂ from before a re-initialisation.
+    Held,
     /// k̂, the observer having been seeded with it.
     Identified,
 }
@@ -75,7 +77,7 @@ impl Axis {
 
     /// To be called when the source, `settled_at` or `measured` has changed.
     pub fn decide_use(&mut self) {
-        let usable = self.measured && matches!(self.source, Source::Identified | Source::Nominal);
+        let usable = self.measured && matches!(self.source, Source::Identified | Source::Held | Source::Nominal);
         self.usable_at = if usable { self.settled_at } else { u32::MAX };
     }
 
@@ -154,6 +156,8 @@ impl Axis {
                 return;
             }
             (k, Source::Identified)
+        } else if let Some(k) = parameter.held_value() {
+            (k, Source::Held)
         } else if let Some(k) = parameter.nominal {
             (k, Source::Nominal)
         } else if let Some(k) = parameter.credible() {

@@ -94,16 +94,36 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     pub fn reset(&mut self) {
         let Frame { common, progress, .. } = &mut self.frame;
         *progress = Progress { counters: progress.counters, ..Progress::start(common) };
-        self.parts().start_axes();
         for parameter in &mut self.parameters {
             parameter.restart(Self::SHARING);
         }
+        self.parts().start_axes();
+    }
+
+    /// Forgets everything but the design, the counters and the parameters: those that are valid or held are handed out, and
+    /// predicted with, until the new ones are valid. For a measurement that has jumped.
+    pub fn restart(&mut self) {
+        let Frame { common, progress, .. } = &mut self.frame;
+        *progress = Progress { counters: progress.counters, ..Progress::start(common) };
+        for parameter in &mut self.parameters {
+            parameter.hold(Self::SHARING);
+        }
+        self.parts().start_axes();
     }
 
     /// Starts the identification anew (section III of the paper: "each reinitialization"), the observer going on. Until
     /// the new k̂ is valid the observer predicts with the nominal parameter, if there is one.
     pub fn reset_identifier(&mut self) {
-        self.parts().reset_identifier();
+        self.parts().reset_identifier(false);
+    }
+
+    /// Starts the identification anew as [`reset_identifier`](Self::reset_identifier) does, without losing what is known: a
+    /// parameter that is valid goes on being handed out ([`ParameterStatus::Held`]), and the observer goes on predicting with
+    /// it, until the new k̂ is valid.
+    ///
+    /// [`ParameterStatus::Held`]: crate::readout::ParameterStatus::Held
+    pub fn reinitialise_identifier(&mut self) {
+        self.parts().reset_identifier(true);
     }
 
     /// The same without its shape.

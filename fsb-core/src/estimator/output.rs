@@ -27,6 +27,8 @@ pub enum StateStatus {
     Nominal,
     /// Usable, predicted with the identified parameter.
     Identified,
+    /// Usable, predicted with the parameter identified before the last re-initialisation.
+    Held,
 }
 
 impl fmt::Display for StateStatus {
@@ -37,6 +39,7 @@ impl fmt::Display for StateStatus {
             Self::NoParameter => "no parameter",
             Self::Nominal => "on the nominal parameter",
             Self::Identified => "on the identified parameter",
+            Self::Held => "on the held parameter",
         })
     }
 }

@@ -1,9 +1,9 @@
 //! An estimator without its shape: the code behind it is there once for all numbers of axes.
 
-use super::axis::{Axis, Clocks};
+use super::axis::{Axis, Clocks, Source};
 use super::design::Common;
 use super::shared::{IdentifierClock, Progress};
-use crate::readout::ParameterState;
+use crate::readout::{NoiseLevel, ParameterState};
 
 /// The axes and what they share. Without its shape it is this with a slice in place of the array: two words to hand over.
 #[derive(Clone, Copy, Debug)]
@@ -30,13 +30,18 @@ impl Parts<'_> {
     pub fn start_axes(&mut self) {
         let Frame { common, axes, .. } = &mut *self.frame;
         for (index, axis) in axes.iter_mut().enumerate() {
-            let nominal = self.parameters.get(parameter_of(index, self.parameters)).and_then(|p| p.nominal);
-            *axis = Axis::start(common.noise, axis.own, nominal, common.period2);
+            let parameter = self.parameters.get(parameter_of(index, self.parameters));
+            let held = parameter.and_then(|p| p.held_value());
+            let k = held.or(parameter.and_then(|p| p.nominal));
+            *axis = Axis::start(common.noise, axis.own, k, common.period2);
+            if held.is_some() {
+                axis.source = Source::Held;
+            }
         }
     }
 
-    /// See [`super::Estimator::reset_identifier`].
-    pub fn reset_identifier(&mut self) {
+    /// See [`super::Estimator::reset_identifier`], and for `hold` [`super::Estimator::reinitialise_identifier`].
+    pub fn reset_identifier(&mut self, hold: bool) {
         let Frame { common, progress, axes } = &mut *self.frame;
         let next = if progress.started { progress.observer.count.saturating_add(1) } else { 0 };
         progress.identifier = IdentifierClock::start(next.saturating_add(common.schedule.turn));
@@ -45,11 +50,21 @@ impl Parts<'_> {
         let measured = axes.iter().filter(|axis| axis.measured).count();
         let members = if pooled { measured as u8 } else { 1 };
         for parameter in self.parameters.iter_mut() {
-            parameter.restart(members);
+            if hold {
+                parameter.hold(members);
+            } else {
+                parameter.restart(members);
+            }
         }
         let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };
         for (index, axis) in axes.iter_mut().enumerate() {
-            axis.reset_identifier(common.noise);
+            // What noise there is from sample to sample is known; what the old parameter left over is none.
+            let noise = if hold && axis.noise.is_known() {
+                NoiseLevel::expected(axis.noise.measurement_variance())
+            } else {
+                common.noise
+            };
+            axis.reset_identifier(noise);
             if let Some(parameter) = self.parameters.get(parameter_of(index, self.parameters)) {
                 axis.change_source(parameter, clocks, common);
             }

@@ -3,11 +3,12 @@
 use super::Estimator;
 use super::axis::Source;
 use super::output::{AxisDiagnostics, AxisState, Counters, StateStatus};
-use crate::observer::NoiseGain;
+use crate::moments::InputMoments;
+use crate::observer::{Model, NoiseGain};
 use crate::readout::{Parameter, ParameterStatus};
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
-    /// The parameters that are valid.
+    /// The parameters that are valid, or held through a re-initialisation.
     pub fn parameters(&self) -> [Option<Parameter>; P] {
         self.parameters.each_ref().map(|p| p.valid())
     }
@@ -44,6 +45,35 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         })
     }
 
+    /// The parameters that the states are predicted with: identified, else held, else nominal.
+    pub fn prediction_parameters(&self) -> [Option<f32>; P] {
+        self.parameters.each_ref().map(|p| p.valid().map(|k| k.value).or(p.nominal))
+    }
+
+    /// Whether a measurement is due: the next call may be one of [`measure`](Self::measure).
+    pub const fn is_due(&self) -> bool {
+        !self.frame.progress.started || self.frame.progress.substep >= self.frame.common.substeps
+    }
+
+    /// [`states`](Self::states), so many control `periods` later, `ahead` being the moments of the inputs until then summed
+    /// up in control periods: y + v t + k J2 + c t²/2 and v + k J1 + c t.
+    pub(crate) fn states_after(&self, ahead: &[InputMoments; N], periods: u32) -> [Option<AxisState>; N] {
+        let common = &self.frame.common;
+        let (share, per_period) = (common.substep_share, common.observer.per_period);
+        let share2 = share * share;
+        let t = periods as f32 * share;
+        let mut states = self.states();
+        for ((state, axis), input) in states.iter_mut().zip(&self.frame.axes).zip(ahead) {
+            if let Some(state) = state {
+                let Model { k_t2, c_t2 } = axis.model;
+                state.position +=
+                    t * (state.velocity * common.observer.period) + (k_t2 * share2 * input.j2 + c_t2 * (0.5 * t * t));
+                state.velocity += (k_t2 * share * input.j1 + c_t2 * t) * per_period;
+            }
+        }
+        states
+    }
+
     /// Why a state may be used or not.
     pub fn state_status(&self) -> [StateStatus; N] {
         self.frame.axes.each_ref().map(|axis| match axis.source {
@@ -51,6 +81,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             _ if self.frame.progress.observer.count < axis.settled_at => StateStatus::Settling,
             Source::Identified => StateStatus::Identified,
             Source::Nominal => StateStatus::Nominal,
+            Source::Held => StateStatus::Held,
             Source::Provisional | Source::Nothing => StateStatus::NoParameter,
         })
     }

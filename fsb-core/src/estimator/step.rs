@@ -59,6 +59,20 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         let (mut from, mut to) = (*from, *to);
         self.parts().apply_ramp(&mut from, &mut to, &mut [f32::NAN; N]);
     }
+
+    /// As [`apply`](Self::apply), for inputs of any course over the control period: their moments over it, the control
+    /// period being the unit of time. Moments that no input within the limit can have are rejected as such an input is.
+    pub fn apply_moments(&mut self, moments: &[InputMoments; N]) {
+        let limit = self.frame.common.input_limit;
+        let Frame { common, progress, axes } = &mut self.frame;
+        let sound = all_within(&moments.map(|m| m.j1), limit) && all_within(&moments.map(|m| m.j2), 0.5 * limit);
+        if progress.substep < common.substeps && progress.started && sound {
+            append(common, progress, axes, moments);
+        } else {
+            let mut moments = *moments;
+            self.parts().apply_moments_carefully(&mut moments, &mut [f32::NAN; N]);
+        }
+    }
 }
 
 /// One comparison for all: the sum of the magnitudes is within the limit only if each is, and no NaN passes.
@@ -77,6 +91,21 @@ fn hold(common: &Common, progress: &mut Progress, axes: &mut [Axis], inputs: &[f
             axis.moments = InputMoments::held(f, step);
         } else {
             axis.moments.hold(f, step);
+        }
+    }
+    progress.substep += 1;
+}
+
+#[inline(always)]
+fn append(common: &Common, progress: &mut Progress, axes: &mut [Axis], moments: &[InputMoments]) {
+    for (axis, part) in axes.iter_mut().zip(moments) {
+        if common.substeps == 1 {
+            axis.moments = *part;
+        } else {
+            if progress.substep == 0 {
+                axis.moments = InputMoments::ZERO;
+            }
+            axis.moments.append(part, &common.substep);
         }
     }
     progress.substep += 1;
@@ -110,6 +139,23 @@ impl Parts<'_> {
         progress.substep += 1;
     }
 
+    #[inline(never)]
+    fn apply_moments_carefully(&mut self, moments: &mut [InputMoments], missing: &mut [f32]) {
+        if !self.begin_substep(missing) {
+            return;
+        }
+        let Frame { common, progress, axes } = &mut *self.frame;
+        for (axis, part) in axes.iter().zip(moments.iter_mut()) {
+            if part.j1.abs() <= common.input_limit && part.j2.abs() <= 0.5 * common.input_limit {
+                continue;
+            }
+            progress.counters.rejected_inputs = progress.counters.rejected_inputs.saturating_add(1);
+            let f = late_input(common, progress.substep, axis);
+            *part = InputMoments { j1: f, j2: 0.5 * f };
+        }
+        append(common, progress, axes, moments);
+    }
+
     /// Goes past a measurement instant at which nothing was measured. False before the first measurement.
     fn begin_substep(&mut self, missing: &mut [f32]) -> bool {
         let Frame { common, progress, .. } = &mut *self.frame;
@@ -127,9 +173,13 @@ impl Parts<'_> {
                 continue;
             }
             progress.counters.rejected_inputs = progress.counters.rejected_inputs.saturating_add(1);
-            // j1 is the mean of the interval before, or the part of the present one's that is known.
-            let periods = if progress.substep == 0 { common.substeps } else { progress.substep };
-            *f = axis.moments.j1 / (periods as f32 * common.substep_share);
+            *f = late_input(common, progress.substep, axis);
         }
     }
+}
+
+/// The mean input of late: j1 is that of the interval before, or the part of the present one's that is known.
+fn late_input(common: &Common, substep: u32, axis: &Axis) -> f32 {
+    let periods = if substep == 0 { common.substeps } else { substep };
+    axis.moments.j1 / (periods as f32 * common.substep_share)
 }

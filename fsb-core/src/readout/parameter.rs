@@ -45,6 +45,8 @@ pub enum ParameterStatus {
     OutOfRange,
     /// Usable.
     Valid,
+    /// Identified anew since a re-initialisation, and not valid yet: the value from before it stands in.
+    Held,
 }
 
 impl fmt::Display for ParameterStatus {
@@ -55,6 +57,7 @@ impl fmt::Display for ParameterStatus {
             Self::Uncertain => "uncertain",
             Self::OutOfRange => "out of range",
             Self::Valid => "valid",
+            Self::Held => "held",
         })
     }
 }
@@ -135,6 +138,8 @@ pub(crate) struct ParameterState {
     stepped: u8,
     /// Σ ω ẑ0 over the coarse steps.
     information: Accumulator,
+    /// What stands in until the quotient is valid.
+    held: Option<Parameter>,
     pub nominal: Option<f32>,
     rule: CheckedRule,
 }
@@ -153,6 +158,7 @@ impl ParameterState {
             members,
             stepped: 0,
             information: Accumulator::ZERO,
+            held: None,
             nominal,
             rule,
         }
@@ -161,6 +167,21 @@ impl ParameterState {
     /// Forgets what is known.
     pub fn restart(&mut self, members: u8) {
         *self = Self::start(members, self.nominal, self.rule);
+    }
+
+    /// Begins anew, the value so far standing in until the new one is valid.
+    pub fn hold(&mut self, members: u8) {
+        let held = self.valid();
+        self.restart(members);
+        if held.is_some() {
+            self.status = ParameterStatus::Held;
+            self.held = held;
+        }
+    }
+
+    /// The value that stands in for one that is not valid.
+    pub fn held_value(&self) -> Option<f32> {
+        self.held.map(|parameter| parameter.value)
     }
 
     /// One of its axes no longer takes part.
@@ -183,10 +204,11 @@ impl ParameterState {
         if self.credible { Some(self.value) } else { None }
     }
 
-    /// The parameter, where it is valid.
+    /// The parameter, where it is valid or held.
     pub fn valid(&self) -> Option<Parameter> {
         match self.status {
             ParameterStatus::Valid => Some(Parameter { value: self.value, variance: self.variance }),
+            ParameterStatus::Held => self.held,
             _ => None,
         }
     }
@@ -264,6 +286,11 @@ impl ParameterState {
         } else {
             ParameterStatus::Valid
         };
+        if self.status == ParameterStatus::Valid {
+            self.held = None;
+        } else if self.held.is_some() {
+            self.status = ParameterStatus::Held;
+        }
     }
 }
 
