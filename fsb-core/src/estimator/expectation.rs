@@ -10,15 +10,10 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// As [`measure`](Self::measure).
     pub fn in_step(&self) -> Result<(), OutOfStep> {
         let progress = &self.frame.progress;
-        if progress.started && !self.is_due() {
+        if !self.is_due() {
             return Err(OutOfStep { missing: self.frame.common.substeps - progress.substep });
         }
         Ok(())
-    }
-
-    /// Whether this is a measurement instant at which nothing has been measured yet.
-    pub const fn is_due(&self) -> bool {
-        self.frame.progress.substep >= self.frame.common.substeps
     }
 
     /// Whether every axis has been measured at one instant.

@@ -37,7 +37,8 @@ impl Stored for Source {
             0 => *self = Self::Nothing,
             1 => *self = Self::Provisional,
             2 => *self = Self::Nominal,
-            3 => *self = Self::Identified,
+            3 => *self = Self::Held,
+            4 => *self = Self::Identified,
             _ => archive.refuse(),
         }
     }

@@ -100,7 +100,7 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
     /// As [`Estimator::apply_moments`].
     pub fn apply_moments(&mut self, moments: &[InputMoments; N]) {
         self.count_late();
-        let _ = moments;
+        self.estimator.apply_moments(moments);
     }
 
     /// An input that goes past a measurement instant at which nothing came.
@@ -120,6 +120,11 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         self.gates = [self.expecting; N];
         self.verdicts = [Verdict::Missing; N];
         self.instants = 0;
+    }
+
+    /// As [`Estimator::reinitialise_identifier`].
+    pub fn reinitialise_identifier(&mut self) {
+        self.estimator.reinitialise_identifier();
     }
 
     /// As [`Estimator::reset_identifier`].

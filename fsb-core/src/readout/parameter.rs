@@ -297,7 +297,7 @@ impl ParameterState {
 /// Twice the standard deviation at which a parameter becomes valid is the one at which it no longer is.
 const HYSTERESIS: f32 = 4.0;
 
-stored!(ParameterState { ratio, value, variance, status, read, credible, stale, members, stepped, information });
+stored!(ParameterState { ratio, value, variance, status, read, credible, stale, members, stepped, information, held });
 
 impl Stored for ParameterStatus {
     fn pass(&mut self, archive: &mut dyn Archive) {
@@ -309,7 +309,19 @@ impl Stored for ParameterStatus {
             2 => *self = Self::Uncertain,
             3 => *self = Self::OutOfRange,
             4 => *self = Self::Valid,
+            5 => *self = Self::Held,
             _ => archive.refuse(),
         }
+    }
+}
+
+impl Stored for Option<Parameter> {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        let mut known = self.is_some();
+        let mut parameter = self.unwrap_or(Parameter { value: 0.0, variance: 0.0 });
+        known.pass(archive);
+        parameter.value.pass(archive);
+        parameter.variance.pass(archive);
+        *self = known.then_some(parameter);
     }
 }
