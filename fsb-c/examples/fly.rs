@@ -50,7 +50,9 @@ fn parameter_code(status: ParameterStatus) -> u32 {
         ParameterStatus::Settling => 1,
         ParameterStatus::Unexcited => 2,
         ParameterStatus::Uncertain => 3,
-        ParameterStatus::OutOfRange => 4,
+        ParameterStatus::BelowRange => 4,
+        ParameterStatus::AboveRange => 5,
+        ParameterStatus::Contradicted => 6,
         ParameterStatus::Valid => 8,
         _ => 0,
     }

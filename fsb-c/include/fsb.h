@@ -138,6 +138,9 @@
 // Usable, predicted with the identified k.
 #define FSB_STATE_IDENTIFIED 9
 
+// Usable, predicted with the k from before the identification began anew.
+#define FSB_STATE_HELD 10
+
 // Not usable: nothing could be read from the object.
 #define FSB_PARAMETER_UNKNOWN 0
 
@@ -150,11 +153,20 @@
 // Not usable: the standard deviation is above the configured share of k.
 #define FSB_PARAMETER_UNCERTAIN 3
 
-// Not usable: k is outside the configured range.
-#define FSB_PARAMETER_OUTSIDE 4
+// Not usable: k is below the configured range.
+#define FSB_PARAMETER_BELOW 4
+
+// Not usable: k is above the configured range.
+#define FSB_PARAMETER_ABOVE 5
+
+// Not usable: the motion contradicts the model, as on the ground or with a motor that does not obey.
+#define FSB_PARAMETER_CONTRADICTED 6
 
 // Usable.
 #define FSB_PARAMETER_VALID 8
+
+// Usable: the k from before the identification began anew, until the new one is valid.
+#define FSB_PARAMETER_HELD 9
 
 // Version of the interface that this header describes: 65536 * major + 256 * minor + patch. Compare it once at
 // start-up with fsb_version(): header and library must be of the same version.
@@ -201,6 +213,9 @@ typedef struct fsb_axis_config_t {
   double noise_sd;
   // Time constant [s] with which the identifier forgets; INFINITY: never.
   double memory_tau;
+  // The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
+  // is contradicted; above 0, up to 1. NaN: not asked.
+  double max_misfit;
   // k is not valid earlier than this after a reset [s].
   double parameter_settle;
   // States are not valid earlier than this after the first measurement [s].
@@ -249,11 +264,11 @@ typedef struct fsb_state_sd_t {
   float velocity;
 } fsb_state_sd_t;
 
-// Whether a parameter may be used, and why not.
+// Whether a parameter may be used, and why not. Usable is whatever is FSB_PARAMETER_VALID or more.
 typedef int32_t fsb_parameter_status_t;
 
-// k, which is 1/mass [1/kg] or 1/inertia [1/(kg m^2)]. `k` and `variance` are NaN unless `status` is
-// FSB_PARAMETER_VALID.
+// k, which is 1/mass [1/kg] or 1/inertia [1/(kg m^2)]. `k` and `variance` are NaN where `status` says
+// that they may not be used.
 typedef struct fsb_parameter_t {
   // Identified k.
   float k;
@@ -315,6 +330,9 @@ typedef struct fsb_rotation_config_t {
   double noise_sd;
   // Time constant [s] with which the identifier forgets; INFINITY: never.
   double memory_tau;
+  // The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
+  // is contradicted; above 0, up to 1. NaN: not asked.
+  double max_misfit;
   // k is not valid earlier than this after a reset [s].
   double parameter_settle;
   // States are not valid earlier than this after the first measurement [s].
@@ -391,6 +409,9 @@ typedef struct fsb_translation_config_t {
   double noise_sd;
   // Time constant [s] with which the identifier forgets; INFINITY: never.
   double memory_tau;
+  // The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
+  // is contradicted; above 0, up to 1. NaN: not asked.
+  double max_misfit;
   // k is not valid earlier than this after a reset [s].
   double parameter_settle;
   // States are not valid earlier than this after the first measurement [s].

@@ -56,6 +56,9 @@ pub struct fsb_rotation_config_t {
     pub noise_sd: f64,
     /// Time constant [s] with which the identifier forgets; INFINITY: never.
     pub memory_tau: f64,
+    /// The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
+    /// is contradicted; above 0, up to 1. NaN: not asked.
+    pub max_misfit: f64,
     /// k is not valid earlier than this after a reset [s].
     pub parameter_settle: f64,
     /// States are not valid earlier than this after the first measurement [s].

@@ -25,8 +25,10 @@ pub const FSB_STATE_NO_PARAMETER: i32 = 3;
 pub const FSB_STATE_NOMINAL: i32 = 8;
 /// Usable, predicted with the identified k.
 pub const FSB_STATE_IDENTIFIED: i32 = 9;
+/// Usable, predicted with the k from before the identification began anew.
+pub const FSB_STATE_HELD: i32 = 10;
 
-/// Whether a parameter may be used, and why not.
+/// Whether a parameter may be used, and why not. Usable is whatever is FSB_PARAMETER_VALID or more.
 pub type fsb_parameter_status_t = i32;
 
 /// Not usable: nothing could be read from the object.
@@ -37,10 +39,16 @@ pub const FSB_PARAMETER_SETTLING: i32 = 1;
 pub const FSB_PARAMETER_UNEXCITED: i32 = 2;
 /// Not usable: the standard deviation is above the configured share of k.
 pub const FSB_PARAMETER_UNCERTAIN: i32 = 3;
-/// Not usable: k is outside the configured range.
-pub const FSB_PARAMETER_OUTSIDE: i32 = 4;
+/// Not usable: k is below the configured range.
+pub const FSB_PARAMETER_BELOW: i32 = 4;
+/// Not usable: k is above the configured range.
+pub const FSB_PARAMETER_ABOVE: i32 = 5;
+/// Not usable: the motion contradicts the model, as on the ground or with a motor that does not obey.
+pub const FSB_PARAMETER_CONTRADICTED: i32 = 6;
 /// Usable.
 pub const FSB_PARAMETER_VALID: i32 = 8;
+/// Usable: the k from before the identification began anew, until the new one is valid.
+pub const FSB_PARAMETER_HELD: i32 = 9;
 
 /// Position and velocity of an axis at the present control instant. Both are NaN where `status` says that they
 /// may not be used.
@@ -55,8 +63,8 @@ pub struct fsb_state_t {
     pub status: fsb_state_status_t,
 }
 
-/// k, which is 1/mass [1/kg] or 1/inertia [1/(kg m^2)]. `k` and `variance` are NaN unless `status` is
-/// FSB_PARAMETER_VALID.
+/// k, which is 1/mass [1/kg] or 1/inertia [1/(kg m^2)]. `k` and `variance` are NaN where `status` says
+/// that they may not be used.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_parameter_t {
@@ -134,6 +142,7 @@ impl fsb_state_t {
             StateStatus::NoParameter => FSB_STATE_NO_PARAMETER,
             StateStatus::Nominal => FSB_STATE_NOMINAL,
             StateStatus::Identified => FSB_STATE_IDENTIFIED,
+            StateStatus::Held => FSB_STATE_HELD,
             _ => FSB_STATE_UNKNOWN,
         };
         match state {
@@ -151,8 +160,11 @@ impl fsb_parameter_t {
             ParameterStatus::Settling => FSB_PARAMETER_SETTLING,
             ParameterStatus::Unexcited => FSB_PARAMETER_UNEXCITED,
             ParameterStatus::Uncertain => FSB_PARAMETER_UNCERTAIN,
-            ParameterStatus::OutOfRange => FSB_PARAMETER_OUTSIDE,
+            ParameterStatus::BelowRange => FSB_PARAMETER_BELOW,
+            ParameterStatus::AboveRange => FSB_PARAMETER_ABOVE,
+            ParameterStatus::Contradicted => FSB_PARAMETER_CONTRADICTED,
             ParameterStatus::Valid => FSB_PARAMETER_VALID,
+            ParameterStatus::Held => FSB_PARAMETER_HELD,
             _ => FSB_PARAMETER_UNKNOWN,
         };
         match parameter {
@@ -217,7 +229,7 @@ pub unsafe extern "C" fn fsb_parameter_report(
 ) -> fsb_status_t {
     give(report, fsb_parameter_report_t::INVALID, || {
         let [fsb_parameter_t { k: value, variance, status }] = take(parameter)?;
-        if status != FSB_PARAMETER_VALID {
+        if status < FSB_PARAMETER_VALID {
             return Err(FSB_NOT_VALID);
         }
         let parameter = Parameter { value, variance };
@@ -235,6 +247,7 @@ pub extern "C" fn fsb_state_status_name(status: fsb_state_status_t) -> *const c_
         FSB_STATE_NO_PARAMETER => c"FSB_STATE_NO_PARAMETER",
         FSB_STATE_NOMINAL => c"FSB_STATE_NOMINAL",
         FSB_STATE_IDENTIFIED => c"FSB_STATE_IDENTIFIED",
+        FSB_STATE_HELD => c"FSB_STATE_HELD",
         _ => c"FSB_STATE_UNKNOWN",
     };
     name.as_ptr()
@@ -247,8 +260,11 @@ pub extern "C" fn fsb_parameter_status_name(status: fsb_parameter_status_t) -> *
         FSB_PARAMETER_SETTLING => c"FSB_PARAMETER_SETTLING",
         FSB_PARAMETER_UNEXCITED => c"FSB_PARAMETER_UNEXCITED",
         FSB_PARAMETER_UNCERTAIN => c"FSB_PARAMETER_UNCERTAIN",
-        FSB_PARAMETER_OUTSIDE => c"FSB_PARAMETER_OUTSIDE",
+        FSB_PARAMETER_BELOW => c"FSB_PARAMETER_BELOW",
+        FSB_PARAMETER_ABOVE => c"FSB_PARAMETER_ABOVE",
+        FSB_PARAMETER_CONTRADICTED => c"FSB_PARAMETER_CONTRADICTED",
         FSB_PARAMETER_VALID => c"FSB_PARAMETER_VALID",
+        FSB_PARAMETER_HELD => c"FSB_PARAMETER_HELD",
         _ => c"FSB_PARAMETER_UNKNOWN",
     };
     name.as_ptr()

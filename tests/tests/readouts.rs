@@ -98,7 +98,7 @@ fn a_negative_parameter() {
                 if readout == Readout::LeastSquares {
                     assert_eq!(core.parameters(), [None], "at {t}");
                     if t > 0.1 {
-                        assert_eq!(core.parameter_status(), [ParameterStatus::OutOfRange], "at {t}");
+                        assert_eq!(core.parameter_status(), [ParameterStatus::BelowRange], "at {t}");
                     }
                 }
             },

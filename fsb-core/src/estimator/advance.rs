@@ -3,6 +3,7 @@
 use super::Estimator;
 use super::axis::Clocks;
 use super::identify::SingleRound;
+use super::output::Learning;
 use super::parts::{Frame, Parts, parameter_of};
 
 /// Counts of measurements are kept below about this: three days at 8 kHz.
@@ -65,7 +66,7 @@ impl Parts<'_> {
             axis.observe(y, m1, gains.t_l2());
         }
         progress.observer.gains = gains;
-        let identifying = progress.observer.count >= progress.identifier.began;
+        let identifying = progress.observer.count >= progress.identifier.began && progress.learning == Learning::On;
         if identifying && common.block_length == 1 {
             self.take_singles();
         } else if identifying {
@@ -240,12 +241,17 @@ impl Parts<'_> {
             let per_stride = common.covariance.per_stride;
             let sharing = if pooled { axes.get(..) } else { axes.get(index..=index) };
             let mut variance = Some(0.0);
+            let (mut unexplained, mut signal) = (0.0, 0.0);
             for axis in sharing.into_iter().flatten() {
                 if axis.present {
                     variance = variance.zip(axis.numerator_variance(per_stride)).map(|(a, b)| a + b);
+                    let (of_axis, of) = axis.noise.misfit();
+                    unexplained += of_axis;
+                    signal += of;
                 }
             }
             parameter.read_variance(variance, common.identifier.scale2());
+            parameter.compare(unexplained, common.max_misfit * signal);
         }
         let Some(axis) = axes.get_mut(index) else { return };
         let settled = progress.observer.count - progress.identifier.began >= common.parameter_settle;

@@ -34,6 +34,10 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     pub nominal: [Option<f64>; P],
     /// When k̂ of each parameter counts as valid.
     pub rule: [ParameterRule; P],
+    /// The largest share of the filtered acceleration's mean square that `k f + c` may leave unexplained, beyond noise, before
+    /// the parameter is contradicted (thrust on the ground, a motor that does not obey) and no longer valid. Above 0, up to
+    /// 1; `None`: not asked.
+    pub max_misfit: Option<f64>,
     /// ε of the parameter (s): k̂ is not valid earlier.
     pub parameter_settle: f64,
     /// ε of the state (s): position and velocity are not handed out earlier.
@@ -61,6 +65,7 @@ impl<const N: usize, const P: usize> EstimatorConfig<N, P> {
             drift: [0.0; N],
             nominal: [None; P],
             rule: [ParameterRule::default(); P],
+            max_misfit: Some(0.02),
             parameter_settle: 0.0,
             state_settle: 0.0,
             position_limit: 1e5,

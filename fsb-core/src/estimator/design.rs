@@ -66,6 +66,8 @@ pub(super) struct Common {
     pub any_drift: bool,
     /// T²
     pub period2: f32,
+    /// The share that may stay unexplained; beyond 1 nothing is.
+    pub max_misfit: f32,
     /// ε in measurements
     pub parameter_settle: u32,
     pub state_settle: u32,
@@ -104,6 +106,7 @@ impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
             noise_sd: config.noise_sd,
             readout: config.readout,
             memory: config.memory,
+            max_misfit: config.max_misfit,
             parameter_settle: config.parameter_settle,
             state_settle: config.state_settle,
             position_limit: config.position_limit,
@@ -158,6 +161,7 @@ struct Shapeless {
     noise_sd: Option<f64>,
     readout: Readout,
     memory: Memory,
+    max_misfit: Option<f64>,
     parameter_settle: f64,
     state_settle: f64,
     position_limit: f64,
@@ -212,6 +216,7 @@ impl Common {
             noise,
             any_drift: config.any_drift,
             period2: (period * period) as f32,
+            max_misfit: misfit(config.max_misfit)?,
             parameter_settle: samples("parameter_settle", config.parameter_settle, period)?,
             state_settle: samples("state_settle", config.state_settle, period)?,
             late_settle: samples("observer.lambda", 8.0 / config.observer.lambda, period)?,
@@ -234,4 +239,12 @@ fn samples(name: &'static str, seconds: f64, period: f64) -> Result<u32, ConfigE
 
 fn limit(name: &'static str, value: f64) -> Result<f32, ConfigError> {
     if positive(name, value)? > 1e6 { Err(ConfigError::OutOfRange(name)) } else { Ok(value as f32) }
+}
+
+fn misfit(share: Option<f64>) -> Result<f32, ConfigError> {
+    match share {
+        None => Ok(f32::INFINITY),
+        Some(share) if positive("max_misfit", share)? > 1.0 => Err(ConfigError::OutOfRange("max_misfit")),
+        Some(share) => Ok(share as f32),
+    }
 }

@@ -42,6 +42,11 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         }
     }
 
+    /// R: control periods to a measurement period.
+    pub const fn substeps(&self) -> u32 {
+        self.frame.common.substeps
+    }
+
     /// The limit of a measurement's magnitude.
     pub(crate) const fn position_limit(&self) -> f32 {
         self.frame.common.position_limit

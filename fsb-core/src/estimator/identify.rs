@@ -114,10 +114,8 @@ impl Axis {
             let step = self.observer.innovation() - self.innovation_before;
             // With the quotient of this very moment: the one read last may be from before the take-off.
             let residual = z2 - parameter.ratio.quotient() * z0;
-            self.noise.add(
-                step * step * common.innovation_to_mean,
-                covariance.stride * (residual * residual) / (clock.shape.variance() * common.identifier.scale2()),
-            );
+            let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
+            self.noise.add(step * step * common.innovation_to_mean, residual * residual * to_mean, z2 * z2 * to_mean);
         }
         let (up, down) = weight(common.readout, z2, z0);
         let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);

@@ -9,6 +9,7 @@
 //! | `schedule` | who has a turn at which measurement |
 //! | `axis` | the state of one axis, and what it does at its turns |
 //! | `identify` | its block through the cascade, and into its parameter's sums |
+//! | `learning` | learning only when told |
 //! | `shared` | the state that depends on time alone: windows, gains, weights, covariance |
 //! | `step` | the two calls a tick |
 //! | `advance` | what a measurement instant does |
@@ -25,6 +26,7 @@ mod config;
 mod design;
 mod expectation;
 mod identify;
+mod learning;
 mod output;
 mod parts;
 mod readings;
@@ -38,7 +40,7 @@ mod tests;
 
 pub use config::EstimatorConfig;
 pub use design::EstimatorDesign;
-pub use output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
+pub use output::{AxisDiagnostics, AxisState, Counters, Learning, OutOfStep, StateStatus};
 
 use crate::error::ConfigError;
 use crate::readout::ParameterState;
@@ -93,7 +95,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Forgets everything but the design and the counters.
     pub fn reset(&mut self) {
         let Frame { common, progress, .. } = &mut self.frame;
-        *progress = Progress { counters: progress.counters, ..Progress::start(common) };
+        *progress = progress.anew(common);
         for parameter in &mut self.parameters {
             parameter.restart(Self::SHARING);
         }
@@ -104,7 +106,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// predicted with, until the new ones are valid. For a measurement that has jumped.
     pub fn restart(&mut self) {
         let Frame { common, progress, .. } = &mut self.frame;
-        *progress = Progress { counters: progress.counters, ..Progress::start(common) };
+        *progress = progress.anew(common);
         for parameter in &mut self.parameters {
             parameter.hold(Self::SHARING);
         }

@@ -21,6 +21,8 @@ pub enum StateStatus {
     NotMeasured,
     /// Less than the configured time has passed since the first measurement.
     Settling,
+    /// Not measured for longer than is bridged by prediction ([`Guarded`](crate::guard::Guarded)).
+    Stale,
     /// No parameter to predict with: k̂ is not valid and there is no nominal one.
     NoParameter,
     /// Usable, predicted with the nominal parameter.
@@ -36,12 +38,28 @@ impl fmt::Display for StateStatus {
         out.write_str(match self {
             Self::NotMeasured => "not measured",
             Self::Settling => "settling",
+            Self::Stale => "stale",
             Self::NoParameter => "no parameter",
             Self::Nominal => "on the nominal parameter",
             Self::Identified => "on the identified parameter",
             Self::Held => "on the held parameter",
         })
     }
+}
+
+/// Whether the estimator learns from what it sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Learning {
+    /// In flight: the parameters are identified, and the states predicted with them.
+    #[default]
+    On,
+    /// The parameters stay as they are, and the states are predicted with them.
+    Off,
+    /// On the ground or held: forces act that nobody knows. The parameters stay as they are, and the states are predicted
+    /// with constant velocity.
+    Contact,
 }
 
 /// A measurement was given at an instant that is none: `missing` more inputs must be applied first. Nothing has changed.

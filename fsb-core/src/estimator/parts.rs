@@ -38,6 +38,7 @@ impl Parts<'_> {
                 axis.source = Source::Held;
             }
         }
+        self.heed_contact();
     }
 
     /// See [`super::Estimator::reset_identifier`], and for `hold` [`super::Estimator::reinitialise_identifier`].
@@ -69,5 +70,6 @@ impl Parts<'_> {
                 axis.change_source(parameter, clocks, common);
             }
         }
+        self.heed_contact();
     }
 }

@@ -63,5 +63,6 @@ impl Parts<'_> {
             }
             progress.all_measured = false;
         }
+        self.heed_contact();
     }
 }

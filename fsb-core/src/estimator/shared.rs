@@ -1,7 +1,7 @@
 //! The state that depends on time alone, shared by all axes: windows, gains, weights, covariance.
 
 use super::design::Common;
-use super::output::Counters;
+use super::output::{Counters, Learning};
 use crate::identifier::{Coefficients, UnitChain};
 use crate::observer::Gains;
 use crate::readout::NoiseShape;
@@ -20,6 +20,7 @@ pub(super) struct Progress {
     pub all_measured: bool,
     /// The next measurement can go the quick way.
     pub steady: bool,
+    pub learning: Learning,
     pub counters: Counters,
 }
 
@@ -32,8 +33,16 @@ impl Progress {
             started: false,
             all_measured: false,
             steady: false,
+            learning: Learning::On,
             counters: Counters::default(),
         }
+    }
+}
+
+impl Progress {
+    /// At the start again, still counting, and learning as it was told.
+    pub fn anew(&self, common: &Common) -> Self {
+        Self { counters: self.counters, learning: self.learning, ..Self::start(common) }
     }
 }
 

@@ -2,12 +2,12 @@
 
 use super::Estimator;
 use super::axis::{Axis, Source};
-use super::output::Counters;
+use super::output::{Counters, Learning};
 use super::shared::Progress;
 use crate::snapshot::{Archive, Stored, stored};
 
 stored!(Counters { missed, rejected_measurements, rejected_inputs });
-stored!(Progress { observer, identifier, substep, started, all_measured, steady, counters });
+stored!(Progress { observer, identifier, substep, started, all_measured, steady, learning, counters });
 stored!(Axis {
     observer,
     model,
@@ -28,6 +28,19 @@ stored!(Axis {
     begun,
     present,
 });
+
+impl Stored for Learning {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        let mut code = *self as u8;
+        code.pass(archive);
+        match code {
+            0 => *self = Self::On,
+            1 => *self = Self::Off,
+            2 => *self = Self::Contact,
+            _ => archive.refuse(),
+        }
+    }
+}
 
 impl Stored for Source {
     fn pass(&mut self, archive: &mut dyn Archive) {

@@ -16,6 +16,10 @@ pub struct GuardConfig {
     pub floor: f64,
     /// So many improbable measurements in a row that agree with each other are a jump of the sensor. 2..=65535.
     pub jump_after: u32,
+    /// Gaps up to this are bridged by prediction (s). An axis that has not been measured for longer is stale: its state is not
+    /// handed out. Where all axes are, the windows start anew with the next measurement; where one was, the identification.
+    /// Parameters are held. Positive, at most 65535 measurement periods.
+    pub bridge: f64,
     /// A measurement whose bits have been the same for more than so many samples is one of a frozen sensor; 0: never.
     /// Up to 65535.
     pub frozen_after: u32,
@@ -23,9 +27,9 @@ pub struct GuardConfig {
 
 impl Default for GuardConfig {
     /// For positions in metres and angles in radians of a small vehicle: 8 standard deviations, 20 m/s², 5 mm, 10
-    /// measurements, never frozen.
+    /// measurements, 2 s, never frozen.
     fn default() -> Self {
-        Self { sigmas: 8.0, acceleration: 20.0, floor: 5e-3, jump_after: 10, frozen_after: 0 }
+        Self { sigmas: 8.0, acceleration: 20.0, floor: 5e-3, jump_after: 10, bridge: 2.0, frozen_after: 0 }
     }
 }
 
@@ -44,6 +48,8 @@ pub struct GuardDesign {
     /// 3λT: the share of itself by which an innovation changes at most from one sample to the next, both poles at e^(-λT)
     pub(super) decay: f32,
     pub(super) jump_after: u16,
+    /// In measurement periods.
+    pub(super) bridge: u16,
     pub(super) frozen_after: u16,
 }
 
@@ -68,6 +74,10 @@ impl GuardDesign {
             Ok(count) if count >= least => Ok(count),
             _ => Err(ConfigError::OutOfRange(name)),
         };
+        let bridge = libm::round(positive("guard.bridge", config.bridge)? / period);
+        if !(1.0..=65_534.0).contains(&bridge) {
+            return Err(ConfigError::OutOfRange("guard.bridge"));
+        }
         let lambda = positive("observer.lambda", tuning.lambda)?;
         Ok(Self {
             sigmas2: (config.sigmas * config.sigmas) as f32,
@@ -76,6 +86,7 @@ impl GuardDesign {
             lambda_t: (lambda * period) as f32,
             decay: (3.0 * lambda * period) as f32,
             jump_after: count("guard.jump_after", config.jump_after, 2)?,
+            bridge: bridge as u16,
             frozen_after: count("guard.frozen_after", config.frozen_after, 0)?,
         })
     }

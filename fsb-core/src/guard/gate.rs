@@ -101,6 +101,16 @@ impl Gate {
         Verdict::Improbable
     }
 
+    /// Measurement instants since a measurement was used.
+    pub const fn gap(&self) -> u16 {
+        self.gap
+    }
+
+    /// The observer starts anew: what was learned of the noise stays, and so does the age of the last measurement.
+    pub fn restart(&mut self) {
+        *self = Self { level: self.level, values: self.values, gap: self.gap, ..Self::default() };
+    }
+
     /// Nothing was measured.
     pub fn miss(&mut self) {
         self.gap = self.gap.saturating_add(1);

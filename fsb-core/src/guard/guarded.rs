@@ -4,11 +4,12 @@ use super::config::{GuardConfig, GuardDesign};
 use super::gate::Gate;
 use super::verdict::{Rejections, Verdict};
 use crate::error::ConfigError;
-use crate::estimator::{Estimator, EstimatorConfig, OutOfStep};
+use crate::estimator::{AxisState, Estimator, EstimatorConfig, Learning, OutOfStep, StateStatus};
 use crate::moments::InputMoments;
 use core::ops::Deref;
 
-/// An [`Estimator`] that is shown only what can be true. Its read-outs are those of the estimator, by `Deref`.
+/// An [`Estimator`] that is shown only what can be true, and that says when its states are stale. What is not here is read
+/// from the estimator, by `Deref`.
 ///
 /// Non-finite policy: rejected and counted, see [`Verdict`]. Cost of the gate: about 35 operations an axis and measurement.
 #[derive(Clone, Copy, Debug)]
@@ -19,8 +20,13 @@ pub struct Guarded<const N: usize, const P: usize> {
     gates: [Gate; N],
     verdicts: [Verdict; N],
     rejections: Rejections,
-    /// Measurement instants since the first; saturates.
+    /// Some axis has been stale since the identification began.
+    interrupted: bool,
+    /// Measurement instants since the start; saturates.
     instants: u8,
+    /// The last input, for periods that were missed.
+    last: [InputMoments; N],
+    measurement_period: f32,
 }
 
 impl<const N: usize, const P: usize> Guarded<N, P> {
@@ -43,7 +49,10 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
             gates: [expecting; N],
             verdicts: [Verdict::Missing; N],
             rejections: Rejections::default(),
+            interrupted: false,
             instants: 0,
+            last: [InputMoments::ZERO; N],
+            measurement_period: period as f32,
         })
     }
 
@@ -82,36 +91,115 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         if self.instants < Self::FIRST && self.estimator.has_started() {
             self.instants += 1;
         }
+        self.bridge();
         Ok(self.verdicts)
+    }
+
+    /// Restarts what a gap was too long for.
+    fn bridge(&mut self) {
+        let stale = self.gates.iter().filter(|gate| gate.gap() > self.design.bridge).count();
+        if stale == N && self.estimator.has_started() {
+            self.estimator.restart();
+            for gate in &mut self.gates {
+                gate.restart();
+            }
+            self.interrupted = false;
+            self.instants = 0;
+        } else if stale > 0 {
+            self.interrupted = true;
+        } else if self.interrupted && self.gates.iter().all(|gate| gate.gap() == 0) {
+            self.interrupted = false;
+            self.estimator.reinitialise_identifier();
+        }
     }
 
     /// As [`Estimator::apply`].
     pub fn apply(&mut self, inputs: &[f32; N]) {
         self.count_late();
+        self.remember(&inputs.map(|f| InputMoments { j1: f, j2: 0.5 * f }));
         self.estimator.apply(inputs);
     }
 
     /// As [`Estimator::apply_ramp`].
     pub fn apply_ramp(&mut self, from: &[f32; N], to: &[f32; N]) {
         self.count_late();
+        self.remember(&to.map(|f| InputMoments { j1: f, j2: 0.5 * f }));
         self.estimator.apply_ramp(from, to);
     }
 
     /// As [`Estimator::apply_moments`].
     pub fn apply_moments(&mut self, moments: &[InputMoments; N]) {
         self.count_late();
+        self.remember(moments);
         self.estimator.apply_moments(moments);
+    }
+
+    /// The control loop has been late by so many control periods, in which the actuators held their input and nothing was
+    /// measured. Gaps longer than the configured bridge restart the windows. Cost: that of as many calls of `apply`, at most
+    /// those of twice the bridge.
+    pub fn missed(&mut self, periods: u32) {
+        let most = 2 * u32::from(self.design.bridge) * self.estimator.substeps();
+        for _ in 0..periods.min(most) {
+            let last = self.last;
+            self.apply_moments(&last);
+        }
+    }
+
+    fn remember(&mut self, moments: &[InputMoments; N]) {
+        for (last, given) in self.last.iter_mut().zip(moments) {
+            if given.j1.is_finite() && given.j2.is_finite() {
+                *last = *given;
+            }
+        }
     }
 
     /// An input that goes past a measurement instant at which nothing came.
     fn count_late(&mut self) {
         if self.estimator.has_started() && self.estimator.is_due() {
-            for (gate, verdict) in self.gates.iter_mut().zip(&mut self.verdicts) {
-                gate.miss();
-                *verdict = Verdict::Missing;
-                self.rejections.count(*verdict);
+            let _ = self.measure(&[None; N]);
+        }
+    }
+
+    /// The states that may be used: as [`Estimator::states`], but for an axis that is stale.
+    pub fn states(&self) -> [Option<AxisState>; N] {
+        let mut states = self.estimator.states();
+        for (state, gate) in states.iter_mut().zip(&self.gates) {
+            if gate.gap() > self.design.bridge {
+                *state = None;
             }
         }
+        states
+    }
+
+    /// As [`Estimator::state_status`].
+    pub fn state_status(&self) -> [StateStatus; N] {
+        let mut statuses = self.estimator.state_status();
+        for (status, gate) in statuses.iter_mut().zip(&self.gates) {
+            if gate.gap() > self.design.bridge {
+                *status = StateStatus::Stale;
+            }
+        }
+        statuses
+    }
+
+    /// Time since the last measurement of each axis that was used (s), up to the last measurement instant.
+    pub fn staleness(&self) -> [f32; N] {
+        self.gates.each_ref().map(|gate| f32::from(gate.gap()) * self.measurement_period)
+    }
+
+    /// As [`Estimator::set_learning`].
+    pub fn set_learning(&mut self, learning: Learning) {
+        self.estimator.set_learning(learning);
+    }
+
+    /// As [`Estimator::restart`]; what was learned of the noise stays.
+    pub fn restart(&mut self) {
+        self.estimator.restart();
+        for gate in &mut self.gates {
+            gate.restart();
+        }
+        self.instants = 0;
+        self.interrupted = false;
     }
 
     /// As [`Estimator::reset`]; what was learned of the noise goes as well.
@@ -119,7 +207,9 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         self.estimator.reset();
         self.gates = [self.expecting; N];
         self.verdicts = [Verdict::Missing; N];
+        self.last = [InputMoments::ZERO; N];
         self.instants = 0;
+        self.interrupted = false;
     }
 
     /// As [`Estimator::reinitialise_identifier`].

@@ -6,7 +6,8 @@
 //! * In the band of the identifier: the residual ẑ2 - k ẑ0 has the variance σ² P₁₁. Few independent values, but it sees
 //!   what the model lacks (drag, wind, a swinging load), which the first does not.
 //!
-//! The larger one counts. Each is a mean over the past, at first of all values, later over the last 256.
+//! The larger one counts. Beside them the filtered acceleration itself is averaged, in the same measure: what part of it
+//! the model leaves unexplained tells whether the model holds at all. Each is a mean over the past, at first of all values, later over the last 256.
 
 use crate::snapshot::stored;
 
@@ -16,6 +17,9 @@ use crate::snapshot::stored;
 pub struct NoiseLevel {
     fine: f32,
     slow: f32,
+    /// Means of the residual and of what there is to explain, over a shorter past.
+    residual: f32,
+    signal: f32,
     values: u16,
 }
 
@@ -24,20 +28,27 @@ impl NoiseLevel {
     const MEMORY: u16 = 256;
     /// Values before which the level is not trusted.
     const ENOUGH: u16 = 8;
+    /// The memory of the misfit, in values: about 2.5/λ.
+    const RECENT: u16 = 32;
+    /// A residual of so many times the variance of the measurement noise may still be noise.
+    const EXPLAINED: f32 = 25.0;
 
     /// A level known beforehand; it counts as much as the least number of values that is trusted.
     pub(crate) const fn expected(variance: f32) -> Self {
-        Self { fine: variance, slow: variance, values: Self::ENOUGH }
+        Self { fine: variance, slow: variance, residual: 0.0, signal: 0.0, values: Self::ENOUGH }
     }
 
-    /// Adds one value of each: `fine` from the innovations, `slow` from the residual.
-    pub(crate) fn add(&mut self, fine: f32, slow: f32) {
+    /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2.
+    pub(crate) fn add(&mut self, fine: f32, slow: f32, signal: f32) {
         if self.values < Self::MEMORY {
             self.values += 1;
         }
         let gain = 1.0 / f32::from(self.values);
         self.fine += gain * (fine - self.fine);
         self.slow += gain * (slow - self.slow);
+        let gain = 1.0 / f32::from(if self.values < Self::RECENT { self.values } else { Self::RECENT });
+        self.residual += gain * (slow - self.residual);
+        self.signal += gain * (signal - self.signal);
     }
 
     /// σ², in the square of the position's unit, of the means that the identifier works on.
@@ -48,6 +59,13 @@ impl NoiseLevel {
     /// Both: from sample to sample, and in the band of the identifier.
     pub const fn variances(&self) -> [f32; 2] {
         [self.fine, self.slow]
+    }
+
+    /// What the model leaves unexplained, beyond what measurement noise of this level can explain, and what there is to
+    /// explain: both in the square of the position's unit.
+    pub(crate) fn misfit(&self) -> (f32, f32) {
+        let noise = Self::EXPLAINED * self.fine;
+        (if self.residual > noise { self.residual } else { 0.0 }, self.signal)
     }
 
     /// Whether enough values have been seen.
@@ -76,4 +94,4 @@ pub(crate) fn innovation_step_gain(p: f32) -> f32 {
     sum
 }
 
-stored!(NoiseLevel { fine, slow, values });
+stored!(NoiseLevel { fine, slow, residual, signal, values });

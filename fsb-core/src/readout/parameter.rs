@@ -41,8 +41,12 @@ pub enum ParameterStatus {
     Unexcited,
     /// The standard deviation is above the configured share of k̂.
     Uncertain,
-    /// k̂ is outside the configured range.
-    OutOfRange,
+    /// k̂ is below the configured range.
+    BelowRange,
+    /// k̂ is above the configured range.
+    AboveRange,
+    /// The model does not explain the motion: in contact with the ground, a motor that does not obey, a wrong input.
+    Contradicted,
     /// Usable.
     Valid,
     /// Identified anew since a re-initialisation, and not valid yet: the value from before it stands in.
@@ -55,7 +59,9 @@ impl fmt::Display for ParameterStatus {
             Self::Settling => "settling",
             Self::Unexcited => "unexcited",
             Self::Uncertain => "uncertain",
-            Self::OutOfRange => "out of range",
+            Self::BelowRange => "below its range",
+            Self::AboveRange => "above its range",
+            Self::Contradicted => "contradicted by the motion",
             Self::Valid => "valid",
             Self::Held => "held",
         })
@@ -131,6 +137,8 @@ pub(crate) struct ParameterState {
     pub status: ParameterStatus,
     read: bool,
     credible: bool,
+    /// The model leaves too much unexplained.
+    contradicted: bool,
     /// All its axes have taken a coarse step since the variance was read.
     pub stale: bool,
     /// Axes that take part, and how many of them have taken the present coarse step.
@@ -154,6 +162,7 @@ impl ParameterState {
             status: ParameterStatus::Settling,
             read: false,
             credible: false,
+            contradicted: false,
             stale: false,
             members,
             stepped: 0,
@@ -236,6 +245,15 @@ impl ParameterState {
         }
     }
 
+    /// Compares what the model leaves `unexplained` with the most it may; half of that ends a contradiction.
+    pub fn compare(&mut self, unexplained: f32, most: f32) {
+        let most = if self.contradicted { 0.5 * most } else { most };
+        self.contradicted = unexplained > most;
+        if self.contradicted && self.status == ParameterStatus::Valid {
+            self.status = ParameterStatus::Contradicted;
+        }
+    }
+
     /// The newest quotient; zero before there is any.
     #[inline(always)]
     pub const fn newest_value(&self) -> f32 {
@@ -274,13 +292,17 @@ impl ParameterState {
         let rule = &self.rule;
         let value2 = self.value * self.value;
         let in_range = self.value >= rule.min && self.value <= rule.max;
-        self.credible = self.read && in_range && self.variance <= value2;
+        self.credible = self.read && in_range && !self.contradicted && self.variance <= value2;
         self.status = if !settled {
             ParameterStatus::Settling
         } else if !self.read {
             ParameterStatus::Unexcited
+        } else if self.contradicted {
+            ParameterStatus::Contradicted
+        } else if self.value > rule.max {
+            ParameterStatus::AboveRange
         } else if !in_range {
-            ParameterStatus::OutOfRange
+            ParameterStatus::BelowRange
         } else if self.variance > rule.relative_variance * value2 {
             ParameterStatus::Uncertain
         } else {
@@ -297,7 +319,20 @@ impl ParameterState {
 /// Twice the standard deviation at which a parameter becomes valid is the one at which it no longer is.
 const HYSTERESIS: f32 = 4.0;
 
-stored!(ParameterState { ratio, value, variance, status, read, credible, stale, members, stepped, information, held });
+stored!(ParameterState {
+    ratio,
+    value,
+    variance,
+    status,
+    read,
+    credible,
+    contradicted,
+    stale,
+    members,
+    stepped,
+    information,
+    held
+});
 
 impl Stored for ParameterStatus {
     fn pass(&mut self, archive: &mut dyn Archive) {
@@ -307,9 +342,11 @@ impl Stored for ParameterStatus {
             0 => *self = Self::Settling,
             1 => *self = Self::Unexcited,
             2 => *self = Self::Uncertain,
-            3 => *self = Self::OutOfRange,
-            4 => *self = Self::Valid,
-            5 => *self = Self::Held,
+            3 => *self = Self::BelowRange,
+            4 => *self = Self::AboveRange,
+            5 => *self = Self::Contradicted,
+            6 => *self = Self::Valid,
+            7 => *self = Self::Held,
             _ => archive.refuse(),
         }
     }

@@ -50,7 +50,8 @@ fn reason(status: ParameterStatus) -> &'static str {
     match status {
         ParameterStatus::Unexcited => " (the input has been zero)",
         ParameterStatus::Uncertain => " (the standard deviation of k is above 5 % of k, or the log too short to tell)",
-        ParameterStatus::OutOfRange => " (k is negative, or not within 1e-6 and 1e9)",
+        ParameterStatus::BelowRange => " (k is negative, or below 1e-6)",
+        ParameterStatus::AboveRange => " (k is above 1e9)",
         _ => "",
     }
 }
