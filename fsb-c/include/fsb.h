@@ -50,6 +50,16 @@
 // k = sum|z2| / sum|z0|, the paper's (44): loses the sign, reads too high where the excitation is weak.
 #define FSB_READOUT_ABSOLUTE_RATIO 1
 
+// In flight: k is identified, and the states are predicted with it. The default.
+#define FSB_LEARNING_ON 0
+
+// k stays as it is, and the states are predicted with it.
+#define FSB_LEARNING_OFF 1
+
+// On the ground or held: forces act that nobody knows. k stays as it is, and the states are predicted with
+// constant velocity.
+#define FSB_LEARNING_CONTACT 2
+
 // sizeof(fsb_rotation_t).
 #define FSB_ROTATION_SIZE 1280
 
@@ -80,6 +90,9 @@
 
 // The value asked for is not valid at present.
 #define FSB_NOT_VALID 7
+
+// An argument is none of the constants that it may be. Nothing has changed.
+#define FSB_UNKNOWN_VALUE 8
 
 // Configuration: NaN or infinite.
 #define FSB_CONFIG_NOT_FINITE 16
@@ -474,6 +487,17 @@ fsb_status_t fsb_axis_reset(struct fsb_axis_t *estimator);
 // FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED.
 fsb_status_t fsb_axis_reset_identifier(struct fsb_axis_t *estimator);
 
+// Starts the identification anew, what is known being held: a k that is valid goes on being handed out
+// (FSB_PARAMETER_HELD) and predicted with until the new one is valid. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// FSB_NOT_INITIALISED.
+fsb_status_t fsb_axis_reinitialise_identifier(struct fsb_axis_t *estimator);
+
+// Whether to learn from now on: FSB_LEARNING_ON, FSB_LEARNING_OFF or FSB_LEARNING_CONTACT. When learning resumes
+// the identification begins anew, what is known being held. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// FSB_NOT_INITIALISED, FSB_UNKNOWN_VALUE.
+fsb_status_t fsb_axis_set_learning(struct fsb_axis_t *estimator,
+                                   uint32_t learning);
+
 // Takes the position [m or rad] at the present instant; NaN where the measurement is missing. Comes before
 // apply, every `substeps` ticks. An instant at which it is not called counts as missed on its own.
 //
@@ -543,6 +567,17 @@ fsb_status_t fsb_rotation_reset(struct fsb_rotation_t *estimator);
 // Starts the identification anew, the observer going on with the nominal k. For a known change of load. Errors:
 // FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED.
 fsb_status_t fsb_rotation_reset_identifier(struct fsb_rotation_t *estimator);
+
+// Starts the identification anew, what is known being held: a k that is valid goes on being handed out
+// (FSB_PARAMETER_HELD) and predicted with until the new one is valid. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// FSB_NOT_INITIALISED.
+fsb_status_t fsb_rotation_reinitialise_identifier(struct fsb_rotation_t *estimator);
+
+// Whether to learn from now on: FSB_LEARNING_ON, FSB_LEARNING_OFF or FSB_LEARNING_CONTACT. When learning resumes
+// the identification begins anew, what is known being held. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// FSB_NOT_INITIALISED, FSB_UNKNOWN_VALUE.
+fsb_status_t fsb_rotation_set_learning(struct fsb_rotation_t *estimator,
+                                       uint32_t learning);
 
 // Takes the angles [rad] at the present instant; NaN where a measurement is missing. Comes before apply, every
 // `substeps` ticks. An instant at which it is not called counts as missed on its own.
@@ -656,6 +691,17 @@ fsb_status_t fsb_translation_reset(struct fsb_translation_t *estimator);
 // Starts the identification anew, the observer going on with the nominal k. For a known change of load. Errors:
 // FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED.
 fsb_status_t fsb_translation_reset_identifier(struct fsb_translation_t *estimator);
+
+// Starts the identification anew, what is known being held: a k that is valid goes on being handed out
+// (FSB_PARAMETER_HELD) and predicted with until the new one is valid. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// FSB_NOT_INITIALISED.
+fsb_status_t fsb_translation_reinitialise_identifier(struct fsb_translation_t *estimator);
+
+// Whether to learn from now on: FSB_LEARNING_ON, FSB_LEARNING_OFF or FSB_LEARNING_CONTACT. When learning resumes
+// the identification begins anew, what is known being held. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// FSB_NOT_INITIALISED, FSB_UNKNOWN_VALUE.
+fsb_status_t fsb_translation_set_learning(struct fsb_translation_t *estimator,
+                                          uint32_t learning);
 
 // Takes the positions x, y, z [m] at the present instant; NaN where a measurement is missing. Comes before
 // apply, every `substeps` ticks. An instant at which it is not called counts as missed on its own.

@@ -15,6 +15,14 @@ pub const FSB_READOUT_LEAST_SQUARES: u32 = 0;
 /// k = sum|z2| / sum|z0|, the paper's (44): loses the sign, reads too high where the excitation is weak.
 pub const FSB_READOUT_ABSOLUTE_RATIO: u32 = 1;
 
+/// In flight: k is identified, and the states are predicted with it. The default.
+pub const FSB_LEARNING_ON: u32 = 0;
+/// k stays as it is, and the states are predicted with it.
+pub const FSB_LEARNING_OFF: u32 = 1;
+/// On the ground or held: forces act that nobody knows. k stays as it is, and the states are predicted with
+/// constant velocity.
+pub const FSB_LEARNING_CONTACT: u32 = 2;
+
 /// The paper's lambda and q [1/s]. Each, times the period it runs at, must be within 1e-6..1; q = lambda/2 is
 /// the paper's choice.
 #[repr(C)]

@@ -2,11 +2,12 @@
 
 use core::ffi::c_char;
 
+use fsb_core::estimator::Learning;
 use fsb_core::{Estimator, EstimatorConfig};
 
-use crate::config::{Refusal, refusal};
+use crate::config::{FSB_LEARNING_CONTACT, FSB_LEARNING_OFF, FSB_LEARNING_ON, Refusal, refusal};
 use crate::object::{self, Object, change, give, read, take};
-use crate::status::{FSB_OUT_OF_STEP, fsb_status_t};
+use crate::status::{FSB_OUT_OF_STEP, FSB_UNKNOWN_VALUE, fsb_status_t};
 use crate::values::{fsb_counters_t, fsb_diagnostics_t, fsb_parameter_t, fsb_state_sd_t, fsb_state_t};
 
 /// # Safety
@@ -61,6 +62,41 @@ where
     unsafe {
         change(estimator, |estimator| {
             estimator.reset_identifier();
+            Ok(())
+        })
+    }
+}
+
+/// # Safety
+/// As [`init`].
+pub(crate) unsafe fn reinitialise_identifier<O, const N: usize, const P: usize>(estimator: *mut O) -> fsb_status_t
+where
+    O: Object<Value = Estimator<N, P>>,
+{
+    // SAFETY: the pointer comes from the C caller, whose contract this is.
+    unsafe {
+        change(estimator, |estimator| {
+            estimator.reinitialise_identifier();
+            Ok(())
+        })
+    }
+}
+
+/// # Safety
+/// As [`init`].
+pub(crate) unsafe fn set_learning<O, const N: usize, const P: usize>(estimator: *mut O, learning: u32) -> fsb_status_t
+where
+    O: Object<Value = Estimator<N, P>>,
+{
+    // SAFETY: the pointer comes from the C caller, whose contract this is.
+    unsafe {
+        change(estimator, |estimator| {
+            estimator.set_learning(match learning {
+                FSB_LEARNING_ON => Learning::On,
+                FSB_LEARNING_OFF => Learning::Off,
+                FSB_LEARNING_CONTACT => Learning::Contact,
+                _ => return Err(FSB_UNKNOWN_VALUE),
+            });
             Ok(())
         })
     }

@@ -24,6 +24,8 @@ pub const FSB_PARAMETER_OUT_OF_RANGE: i32 = 5;
 pub const FSB_NOT_FINITE: i32 = 6;
 /// The value asked for is not valid at present.
 pub const FSB_NOT_VALID: i32 = 7;
+/// An argument is none of the constants that it may be. Nothing has changed.
+pub const FSB_UNKNOWN_VALUE: i32 = 8;
 /// Configuration: NaN or infinite.
 pub const FSB_CONFIG_NOT_FINITE: i32 = 16;
 /// Configuration: zero or negative where a positive value is needed.
@@ -83,6 +85,7 @@ fn name(status: fsb_status_t) -> &'static CStr {
         FSB_PARAMETER_OUT_OF_RANGE => c"FSB_PARAMETER_OUT_OF_RANGE",
         FSB_NOT_FINITE => c"FSB_NOT_FINITE",
         FSB_NOT_VALID => c"FSB_NOT_VALID",
+        FSB_UNKNOWN_VALUE => c"FSB_UNKNOWN_VALUE",
         FSB_CONFIG_NOT_FINITE => c"FSB_CONFIG_NOT_FINITE",
         FSB_CONFIG_NOT_POSITIVE => c"FSB_CONFIG_NOT_POSITIVE",
         FSB_CONFIG_NEGATIVE => c"FSB_CONFIG_NEGATIVE",

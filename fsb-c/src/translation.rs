@@ -114,6 +114,25 @@ pub unsafe extern "C" fn fsb_translation_reset_identifier(estimator: *mut fsb_tr
     any::reset_identifier(estimator)
 }
 
+/// Starts the identification anew, what is known being held: a k that is valid goes on being handed out
+/// (FSB_PARAMETER_HELD) and predicted with until the new one is valid. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+/// FSB_NOT_INITIALISED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_translation_reinitialise_identifier(estimator: *mut fsb_translation_t) -> fsb_status_t {
+    any::reinitialise_identifier(estimator)
+}
+
+/// Whether to learn from now on: FSB_LEARNING_ON, FSB_LEARNING_OFF or FSB_LEARNING_CONTACT. When learning resumes
+/// the identification begins anew, what is known being held. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+/// FSB_NOT_INITIALISED, FSB_UNKNOWN_VALUE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fsb_translation_set_learning(
+    estimator: *mut fsb_translation_t,
+    learning: u32,
+) -> fsb_status_t {
+    any::set_learning(estimator, learning)
+}
+
 /// Takes the positions x, y, z [m] at the present instant; NaN where a measurement is missing. Comes before
 /// apply, every `substeps` ticks. An instant at which it is not called counts as missed on its own.
 ///

@@ -56,6 +56,8 @@ static void fill(void *out, size_t size) { memset(out, 0x41, size); }
     fill(d, sizeof d);                                                                                  \
     CHECK(fsb_##kind##_reset(refused) == (expected));                                                   \
     CHECK(fsb_##kind##_reset_identifier(refused) == (expected));                                        \
+    CHECK(fsb_##kind##_reinitialise_identifier(refused) == (expected));                                 \
+    CHECK(fsb_##kind##_set_learning(refused, FSB_LEARNING_ON) == (expected));                           \
     CHECK(fsb_##kind##_measure(refused, numbers) == (expected));                                        \
     CHECK(fsb_##kind##_apply(refused, numbers) == (expected));                                          \
     CHECK(fsb_##kind##_apply_ramp(refused, numbers, numbers) == (expected));                            \
@@ -121,6 +123,11 @@ static void fill(void *out, size_t size) { memset(out, 0x41, size); }
     POINTERS_OF(kind, STATES, PARAMETERS, it);                                                          \
     CHECK(fsb_##kind##_reset_identifier(it) == FSB_OK);                                                 \
     CHECK(fsb_##kind##_##STATES(it, s) == FSB_OK && s[0].status != FSB_STATE_NOT_MEASURED);             \
+    CHECK(fsb_##kind##_reinitialise_identifier(it) == FSB_OK);                                          \
+    CHECK(fsb_##kind##_set_learning(it, FSB_LEARNING_CONTACT) == FSB_OK);                               \
+    CHECK(fsb_##kind##_set_learning(it, FSB_LEARNING_OFF) == FSB_OK);                                   \
+    CHECK(fsb_##kind##_set_learning(it, 3) == FSB_UNKNOWN_VALUE);                                       \
+    CHECK(fsb_##kind##_set_learning(it, FSB_LEARNING_ON) == FSB_OK);                                    \
     CHECK(fsb_##kind##_reset(it) == FSB_OK);                                                            \
     CHECK(fsb_##kind##_##STATES(it, s) == FSB_OK && s[(n)-1].status == FSB_STATE_NOT_MEASURED);         \
     CHECK(fsb_##kind##_counters(it, &c) == FSB_OK && c.missed == (n));                                  \
@@ -243,7 +250,8 @@ static void reports_and_names(void) {
       CHECK(strcmp(fsb_status_name(status), fsb_status_name(other)) || !strcmp(fsb_status_name(status), "FSB_UNKNOWN"));
   CHECK(!strcmp(fsb_state_status_name(FSB_STATE_NOMINAL), "FSB_STATE_NOMINAL"));
   CHECK(!strcmp(fsb_state_status_name(77), "FSB_STATE_UNKNOWN"));
-  CHECK(!strcmp(fsb_parameter_status_name(FSB_PARAMETER_OUTSIDE), "FSB_PARAMETER_OUTSIDE"));
+  CHECK(!strcmp(fsb_parameter_status_name(FSB_PARAMETER_BELOW), "FSB_PARAMETER_BELOW"));
+  CHECK(!strcmp(fsb_parameter_status_name(FSB_PARAMETER_HELD), "FSB_PARAMETER_HELD"));
   CHECK(!strcmp(fsb_parameter_status_name(77), "FSB_PARAMETER_UNKNOWN"));
   CHECK(fsb_version() == FSB_VERSION);
   CHECK(strlen(fsb_version_text()) >= 5);

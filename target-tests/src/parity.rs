@@ -161,7 +161,10 @@ fn parameter_code(status: ParameterStatus) -> u32 {
         ParameterStatus::Settling => 0,
         ParameterStatus::Unexcited => 1,
         ParameterStatus::Uncertain => 2,
-        ParameterStatus::OutOfRange => 3,
+        ParameterStatus::BelowRange => 3,
+        ParameterStatus::AboveRange => 5,
+        ParameterStatus::Contradicted => 6,
+        ParameterStatus::Held => 7,
         ParameterStatus::Valid => 4,
         _ => u32::MAX,
     }

@@ -7,7 +7,9 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use fsb_core::control::{Reference, TrackingConfig, TrackingController, to_body};
-use fsb_core::estimator::AxisState;
+use fsb_core::estimator::{AxisState, Learning};
+use fsb_core::guard::{GuardConfig, Guarded};
+use fsb_core::moments::InputMoments;
 use fsb_core::readout::{Memory, ParameterRule, Readout};
 use fsb_core::{Estimator, EstimatorConfig, EstimatorDesign, Tuning};
 use fsb_firmware::attitude_from_quaternion;
@@ -21,6 +23,8 @@ fn main() -> ! {
         estimator::<3, 1>();
         estimator::<3, 3>();
         estimator::<6, 6>();
+        guarded::<1, 1>();
+        guarded::<3, 3>();
         controller();
         whole_loop();
         #[cfg(feature = "demonstrate")]
@@ -63,6 +67,31 @@ fn estimator<const N: usize, const P: usize>() {
                     estimator = black_box(new);
                 }
             }
+            14 => estimator.reinitialise_identifier(),
+            15 => estimator.restart(),
+            16 => estimator.set_learning(black_box(Learning::Contact)),
+            17 => estimator.apply_moments(&black_box([InputMoments::ZERO; N])),
+            18 => estimator.translate(&black_box([0.0; N])),
+            19 => drop(black_box(estimator.snapshot(black_box(&mut [0; 4096])))),
+            20 => drop(black_box(estimator.restore(black_box(&[0; 4096])))),
+            _ => return,
+        }
+    }
+}
+
+fn guarded<const N: usize, const P: usize>() {
+    let Ok(mut guarded) = Guarded::new(&config::<N, P>(), &black_box(GuardConfig::default())) else { return };
+    loop {
+        match black_box(0_u32) {
+            0 => drop(black_box(guarded.measure(&black_box([Some(0.0); N])))),
+            1 => guarded.apply(&black_box([0.0; N])),
+            2 => guarded.apply_ramp(&black_box([0.0; N]), &black_box([0.0; N])),
+            3 => guarded.apply_moments(&black_box([InputMoments::ZERO; N])),
+            4 => guarded.missed(black_box(3)),
+            5 => guarded.restart(),
+            6 => guarded.reset(),
+            7 => drop(black_box((guarded.states(), guarded.state_status(), guarded.staleness()))),
+            8 => drop(black_box((guarded.verdicts(), guarded.rejections()))),
             _ => return,
         }
     }
