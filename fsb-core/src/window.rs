@@ -107,6 +107,7 @@ impl Window {
     /// Whether it is a window at any sample.
     pub(crate) fn is_sound(&self) -> bool {
         let within = |x: f32| (0.0..=1.000_1).contains(&x);
-        within(self.e.value()) && within(self.h.value()) && (0.999..=1.001).contains(&self.limit)
+        let (e, h) = (self.e.value(), self.h.value());
+        within(e) && within(h) && (h + e - self.limit).abs() < 1e-3 && (0.999..=1.001).contains(&self.limit)
     }
 }

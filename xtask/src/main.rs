@@ -2,6 +2,7 @@
 
 mod c_interface;
 mod command;
+mod fuzz;
 mod hygiene;
 mod licences;
 mod lints;

@@ -48,6 +48,11 @@ fn components() -> Result<()> {
     Ok(())
 }
 
+/// A compiler for libFuzzer.
+pub fn cpp_compiler() -> Result<()> {
+    packages(&PACKAGES[..2])
+}
+
 /// The core library of each of [`TARGETS`].
 pub fn rust_targets() -> Result<()> {
     for target in TARGETS {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 
 use crate::on_target::{cost, disassembly, examples, firmware, panics, parity, size};
-use crate::{c_interface, hygiene, licences, lints, numbers, setup, suite, target};
+use crate::{c_interface, fuzz, hygiene, licences, lints, numbers, setup, suite, target};
 
 /// One step of the gate.
 #[derive(Debug)]
@@ -42,6 +42,7 @@ pub const STEPS: &[Step] = &[
         about: "the C interface: header, tests, size, the same bits on the target",
         run: c_interface::run,
     },
+    Step { name: "fuzz", about: "any calls and any bytes, from the committed corpus on", run: fuzz::run },
     Step { name: "doc", about: "documentation, warnings denied", run: lints::doc },
     Step { name: "numbers", about: "the numbers and links in the documentation", run: numbers::run },
     Step { name: "suite", about: "cargo test on the whole workspace", run: suite::run },

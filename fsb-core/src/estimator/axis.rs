@@ -181,7 +181,9 @@ impl Axis {
         };
         let by = Hypothesis { k, c: self.own.drift, k_t2: k * common.period2, c_t2: self.own.drift_t2 };
         let free = FreeState::at_block_end(&block, &common.block, common.block_length, &by);
-        let sound = free.position.is_finite() && free.t_velocity.is_finite();
+        // Relative to the first position; what is out of all bounds, or no number, is no state.
+        let most = 4.0 * common.position_limit;
+        let sound = free.position.abs() <= most && free.t_velocity.abs() <= most;
         if sound {
             let residual = (self.observer.measurement() - self.origin) - free.position;
             self.observer.seed(residual, free.t_velocity, &clocks.observer.gains);

@@ -32,10 +32,12 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     }
 
     /// Moves the origins of the axes by `by` (m or rad): measurements are larger by that from now on. Velocities and the
-    /// identification do not notice, as the plant is translation invariant.
+    /// identification do not notice, as the plant is translation invariant. An axis that would come to lie beyond twice the
+    /// limit of its measurements stays where it is.
     pub fn translate(&mut self, by: &[f32; N]) {
+        let most = 2.0 * self.frame.common.position_limit;
         for (axis, &by) in self.frame.axes.iter_mut().zip(by) {
-            if by.is_finite() {
+            if (axis.observer.measurement() + by).abs() <= most {
                 axis.observer.translate(by);
                 axis.origin += by;
             }

@@ -1,6 +1,7 @@
 //! What a snapshot holds of an estimator, and what it must obey.
 
 use super::Estimator;
+use super::advance::LONG_AGO;
 use super::axis::{Axis, Source};
 use super::output::{Counters, Learning};
 use super::shared::Progress;
@@ -73,12 +74,14 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         let round = if common.block_length == 1 { 8 } else { common.block_length };
         let clocks = progress.substep <= common.substeps
             && progress.identifier.position < round
+            && progress.observer.count <= LONG_AGO + 65_536
             && (!progress.steady || progress.observer.count >= progress.identifier.began)
             && progress.observer.is_sound()
             && progress.identifier.is_sound();
         // Positions are predicted within the limit or lost; a velocity crosses the whole range in a few periods at most.
         let most = 4.0 * common.position_limit;
         clocks
+            && self.parameters.iter().all(|parameter| parameter.is_sound())
             && self.frame.axes.iter().all(|axis| {
                 axis.model.is_sound(axis.own.drift_t2, common.period2)
                     && axis.observer.is_within(most)

@@ -59,7 +59,8 @@ impl Observer {
     /// Puts the state at T v̂ = `t_velocity` and ŷ = y - `residual`, y being the last measurement and `gains` those of its
     /// sample.
     pub fn seed(&mut self, residual: f32, t_velocity: f32, gains: &Gains) {
-        self.r = if gains.m1 > 0.0 { residual / gains.m1 } else { 0.0 };
+        // 0 in the first two samples, a tenth and more from then on.
+        self.r = if gains.m1 > 1e-3 { residual / gains.m1 } else { 0.0 };
         self.w = Accumulator::new(t_velocity);
     }
 

@@ -362,3 +362,15 @@ impl Stored for Option<Parameter> {
         *self = known.then_some(parameter);
     }
 }
+
+impl ParameterState {
+    /// Whether what would be handed out can be.
+    pub(crate) fn is_sound(&self) -> bool {
+        let rule = &self.rule;
+        let sound = |k: &Parameter| k.value >= rule.min && k.value <= rule.max && k.variance >= 0.0;
+        self.variance >= 0.0
+            && self.held.as_ref().is_none_or(sound)
+            && (self.status != ParameterStatus::Held || self.held.is_some())
+            && (self.status != ParameterStatus::Valid || self.valid().as_ref().is_some_and(sound))
+    }
+}
