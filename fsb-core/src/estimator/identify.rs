@@ -115,7 +115,12 @@ impl Axis {
             // With the quotient of this very moment: the one read last may be from before the take-off.
             let residual = z2 - parameter.ratio.quotient() * z0;
             let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
-            self.noise.add(step * step * common.innovation_to_mean, residual * residual * to_mean, z2 * z2 * to_mean);
+            self.noise.add(
+                step * step * common.innovation_to_mean,
+                residual * residual * to_mean,
+                z2 * z2 * to_mean,
+                covariance.noise_memory,
+            );
         }
         let (up, down) = weight(common.readout, z2, z0);
         let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);

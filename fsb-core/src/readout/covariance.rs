@@ -12,6 +12,7 @@
 //! The recursion runs every D-th identifier step, where λ D T is still small: averaging the noise over D samples and
 //! weighing the mean D-fold is the same filter at a coarser step (design, section 11).
 
+use super::noise_level::NoiseLevel;
 use crate::identifier::{Coefficients, IdentifierDesign};
 use crate::snapshot::stored;
 use crate::tuning::Tuning;
@@ -37,6 +38,8 @@ pub(crate) struct CovarianceDesign {
     mu: f32,
     /// 1 - μ² over D steps
     pub noise_forgetting: f32,
+    /// Values of the noise level that are remembered.
+    pub noise_memory: u16,
     /// 1 - μ over D steps, for one of the axes that share a parameter
     pub forgetting: f32,
 }
@@ -64,6 +67,7 @@ impl CovarianceDesign {
             per_stride: (1.0 / stride) as f32,
             mu: 1.0 - forgetting(stride),
             noise_forgetting: forgetting(2.0 * stride),
+            noise_memory: NoiseLevel::memory(stride * fading),
             forgetting: forgetting(stride / f64::from(sharing)),
         }
     }

@@ -7,7 +7,8 @@
 //!   what the model lacks (drag, wind, a swinging load), which the first does not.
 //!
 //! The larger one counts. Beside them the filtered acceleration itself is averaged, in the same measure: what part of it
-//! the model leaves unexplained tells whether the model holds at all. Each is a mean over the past, at first of all values, later over the last 256.
+//! the model leaves unexplained tells whether the model holds at all. Each is a mean over the past, at first of all values, later over the last 256, or as many as the read-out
+//! remembers.
 
 use crate::snapshot::stored;
 
@@ -25,7 +26,7 @@ pub struct NoiseLevel {
 
 impl NoiseLevel {
     /// The longest memory, in values.
-    const MEMORY: u16 = 256;
+    const MEMORY: f64 = 256.0;
     /// Values before which the level is not trusted.
     const ENOUGH: u16 = 8;
     /// The memory of the misfit, in values: about 2.5/λ.
@@ -33,14 +34,20 @@ impl NoiseLevel {
     /// A residual of so many times the variance of the measurement noise may still be noise.
     const EXPLAINED: f32 = 25.0;
 
+    /// The memory of a read-out that forgets by e^(-`fading`) from value to value.
+    pub(crate) fn memory(fading: f64) -> u16 {
+        libm::fmax(libm::fmin(1.0 / fading, Self::MEMORY), 16.0) as u16
+    }
+
     /// A level known beforehand; it counts as much as the least number of values that is trusted.
     pub(crate) const fn expected(variance: f32) -> Self {
         Self { fine: variance, slow: variance, residual: 0.0, signal: 0.0, values: Self::ENOUGH }
     }
 
-    /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2.
-    pub(crate) fn add(&mut self, fine: f32, slow: f32, signal: f32) {
-        if self.values < Self::MEMORY {
+    /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2. `memory`
+    /// is the longest, in values.
+    pub(crate) fn add(&mut self, fine: f32, slow: f32, signal: f32, memory: u16) {
+        if self.values < memory {
             self.values += 1;
         }
         let gain = 1.0 / f32::from(self.values);
