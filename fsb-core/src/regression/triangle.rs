@@ -38,11 +38,10 @@ pub struct Triangle {
     fy: Accumulator,
     residual: Accumulator,
     count: Accumulator,
+    opening: Accumulator,
 }
 
 impl Triangle {
-    /// A row whose ẑu² is below this comes before the window opens: nothing is in it but rounding.
-    const NOTHING: f32 = 1e-30;
     /// A row beyond this cannot be right; its square would not leave room for the others.
     const TOO_MUCH: f32 = 1e14;
 
@@ -52,7 +51,7 @@ impl Triangle {
         let Row { zu: u, minus_zv: v, z0: f, z2: y } = *row;
         let within = u.abs().max(v.abs()) <= Self::TOO_MUCH && f.abs().max(y.abs()) <= Self::TOO_MUCH;
         // The larger of a number and NaN is the number.
-        let sound = within && !(u + v + f + y).is_nan() && u * u >= Self::NOTHING;
+        let sound = within && !(u + v + f + y).is_nan() && u * u >= NOTHING;
         if sound {
             let mut weight = 1.0;
             let s = take_in(&mut self.du, u, &mut weight, forgetting);
@@ -66,12 +65,18 @@ impl Triangle {
             let y = turn(&mut self.fy, f, y, s);
             self.residual.add_folded(weight * y * y - forgetting * self.residual.value());
             self.count.add_folded(1.0 - forgetting * self.count.value());
+            self.opening.add_folded(u - forgetting * self.opening.value());
         }
         sound
     }
 
-    /// Σ ẑu²: the number of rows as far as the window was open, times the square of the scale.
-    pub const fn rows(&self) -> f32 {
+    /// Σ ẑu, in the rows' scale.
+    pub const fn opening(&self) -> f32 {
+        self.opening.value()
+    }
+
+    /// Σ ẑu², in the square of the rows' scale.
+    pub const fn constant(&self) -> f32 {
         self.du.value()
     }
 
@@ -108,25 +113,33 @@ impl Triangle {
         kept
     }
 
-    /// What share of the energy of ẑv a constant does not explain.
-    pub(crate) fn motion_share(&self) -> f32 {
-        let (own, uv) = (self.dv.value(), self.uv.value());
-        own / (own + self.du.value() * uv * uv)
+    /// Whether ẑv has a part of its own, beyond what rounding leaves of a constant.
+    pub(crate) fn is_moving(&self) -> bool {
+        let (own, du, uv) = (self.dv.value(), self.du.value(), self.uv.value());
+        own > OWN_SHARE * (du * uv * uv) && own > SLOWEST2 * du
     }
 }
 
+/// Energies below this are nothing: a direction this faint would be lost in subnormal numbers, and its angle with it.
+const NOTHING: f32 = 1e-30;
+/// ẑv has a part of its own where more of its energy than this is not a constant's.
+const OWN_SHARE: f32 = 1e-6;
+/// The square of the slowest motion that counts as one: 1e-6 m/s.
+const SLOWEST2: f32 = 1e-12;
+
 #[inline(always)]
 fn take_in(d: &mut Accumulator, x: f32, weight: &mut f32, forgetting: f32) -> f32 {
-    let before = d.value() - forgetting * d.value();
-    d.add_folded(*weight * x * x - forgetting * d.value());
-    let after = d.value();
-    if after > 0.0 {
-        let s = *weight * x / after;
-        *weight *= before / after;
-        s
-    } else {
-        0.0
+    let energy = *weight * x * x;
+    if energy < NOTHING {
+        d.add_folded(-forgetting * d.value());
+        return 0.0;
     }
+    let before = d.value() - forgetting * d.value();
+    d.add_folded(energy - forgetting * d.value());
+    let after = d.value();
+    let s = *weight * x / after;
+    *weight *= before / after;
+    s
 }
 
 /// Returns what is left of `x` for the next row.
@@ -211,13 +224,13 @@ impl Reduced {
 }
 
 fn rotate(d: &mut f32, x: f32, weight: &mut f32) -> f32 {
-    let before = *d;
-    *d += *weight * x * x;
-    if *d > 0.0 {
-        let s = *weight * x / *d;
-        *weight *= before / *d;
-        s
-    } else {
-        0.0
+    let energy = *weight * x * x;
+    if energy < NOTHING {
+        return 0.0;
     }
+    let before = *d;
+    *d += energy;
+    let s = *weight * x / *d;
+    *weight *= before / *d;
+    s
 }
