@@ -56,8 +56,6 @@ const SHARE: f64 = 0.5;
 const SETTLED: f64 = 1.0;
 const OBSERVER: Tuning = Tuning::from_lambda(10.0);
 const DRIFT: [f64; 3] = [0.0, 0.0, -9.81];
-/// The batch fit uses every column, whatever its standard deviation [1/s].
-const ANY_SD: f64 = 2.0;
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
@@ -105,11 +103,9 @@ fn read(folder: &Path, name: &str) -> Result<(AxisLog, [AxisColumn; 3]), Failed>
     Ok((log, axes))
 }
 
-fn fly(folder: &Path, name: &str, identify: [Identify; 3], drag_sd_limit: Option<f64>) -> Result<Outcome, Failed> {
+fn fly(folder: &Path, name: &str, identify: [Identify; 3]) -> Result<Outcome, Failed> {
     let (log, axes) = read(folder, name)?;
-    let plain = DragConfig::new(log.period);
-    let drag_sd_limit = drag_sd_limit.unwrap_or(plain.drag_sd_limit);
-    let mut estimator = DragEstimator::new(&DragConfig { drift: DRIFT, identify, drag_sd_limit, ..plain })?;
+    let mut estimator = DragEstimator::new(&DragConfig { drift: DRIFT, identify, ..DragConfig::new(log.period) })?;
     for n in 0..log.len() {
         estimator.measure(&axes.each_ref().map(|a| a.position[n].map(|y| y as f32)))?;
         estimator.apply(&axes.each_ref().map(|a| a.input[n] as f32));
@@ -149,7 +145,7 @@ fn velocity_error(log: &AxisLog, axis: &AxisColumn, k: f32, terms: AxisTerms, dr
 }
 
 fn has_terms(folder: PathBuf, expected: &Expected) -> Result<(), Failed> {
-    let outcome = fly(&folder, expected.log, [Identify::BOTH; 3], None)?;
+    let outcome = fly(&folder, expected.log, [Identify::BOTH; 3])?;
     let mass = f64::from(1.0 / outcome.k);
     check((mass - expected.mass).abs() <= 0.0003, || format!("mass {mass} kg"))?;
     for (terms, drag) in outcome.terms.iter().zip(expected.drag) {
@@ -169,7 +165,7 @@ fn has_residual(folder: PathBuf, expected: &Expected) -> Result<(), Failed> {
     let drag = Identify { drag: true, disturbance: false };
     let asked = [Identify::NOTHING_ELSE, drag, Identify::BOTH];
     for (identify, rms) in asked.into_iter().zip(expected.residual.into_iter().flatten()) {
-        let residual = fly(&folder, expected.log, [identify; 3], Some(ANY_SD))?.residual;
+        let residual = fly(&folder, expected.log, [identify; 3])?.residual;
         check((residual / rms - 1.0).abs() <= 0.1, || format!("residual {residual} m/s², f64 {rms}"))?;
     }
     Ok(())
@@ -177,8 +173,8 @@ fn has_residual(folder: PathBuf, expected: &Expected) -> Result<(), Failed> {
 
 fn has_better_velocity(folder: PathBuf, name: &str) -> Result<(), Failed> {
     let (log, axes) = read(&folder, name)?;
-    let plain = fly(&folder, name, [Identify::NOTHING_ELSE; 3], None)?;
-    let with = fly(&folder, name, [Identify::BOTH; 3], None)?;
+    let plain = fly(&folder, name, [Identify::NOTHING_ELSE; 3])?;
+    let with = fly(&folder, name, [Identify::BOTH; 3])?;
     for (i, axis) in axes.iter().enumerate().take(2) {
         let without = velocity_error(&log, axis, plain.k, plain.terms[i], DRIFT[i])?;
         let with = velocity_error(&log, axis, with.k, with.terms[i], DRIFT[i])?;

@@ -3,7 +3,8 @@
 use super::clock::Clock;
 use super::design::{AxisDesign, Common};
 use super::model::{DragModel, DragObserver};
-use super::triangle::{Estimate, Reduced, Row, Triangle};
+use super::reduced::{Estimate, Reduced};
+use super::triangle::{Row, Triangle};
 use super::velocity::VelocityCascade;
 use crate::identifier::{BlockMeans, Cascade};
 use crate::moments::InputMoments;

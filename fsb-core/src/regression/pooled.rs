@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::design::Common;
-use super::triangle::Estimate;
+use super::reduced::Estimate;
 use crate::readout::{Parameter, ParameterStatus};
 
 /// k̂ and its status.
@@ -28,12 +28,11 @@ pub(super) fn read(axes: &mut [Axis], common: &Common) -> Estimate {
         axis.share = axis.reduced.information() * per_information;
         value += axis.share * axis.reduced.k();
     }
-    let mut row_variance = 0.0;
+    let mut variance = 0.0;
     for axis in axes.iter_mut().filter(|axis| axis.share > 0.0) {
         axis.weigh(value, common);
-        row_variance += axis.share * axis.row_variance;
+        variance += axis.share * axis.share * axis.reduced.k_variance(axis.row_variance);
     }
-    let variance = row_variance * per_information;
     Estimate { value, variance: if variance.is_finite() { variance } else { f32::MAX } }
 }
 

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Source};
 use super::output::{AxisTerms, DragDiagnostics, Term};
-use super::triangle::Estimate;
+use super::reduced::Estimate;
 use super::{DragEstimator, Identify};
 use crate::estimator::{AxisState, Counters, StateStatus};
 use crate::readout::{Parameter, ParameterStatus};
@@ -36,7 +36,7 @@ impl<const N: usize> DragEstimator<N> {
         let k = self.pooled.newest().value;
         self.axes.each_ref().map(|axis| {
             let count = axis.triangle.count();
-            let used = axis.triangle.keep(axis.used.disturbance, axis.used.drag);
+            let used = axis.triangle.keep(axis.used.disturbance, axis.used.drag, self.common.row_rate2);
             (count > 0.0).then(|| used.residual(k) * self.common.per_scale2 / count)
         })
     }

@@ -15,8 +15,8 @@ use super::config::Identify;
 use super::design::{Common, items};
 use super::model::DragModel;
 use super::pooled::{Pooled, read};
+use super::reduced::Estimate;
 use super::seed::seed;
-use super::triangle::Estimate;
 
 /// The square of two thirds: how far the excitation may fall before a column that is used no longer is.
 const EXCITATION_STAYS: f32 = 4.0 / 9.0;
@@ -59,13 +59,13 @@ impl Axis {
         let Identify { drag, disturbance } = self.own.identify;
         let asked = Columns { drag: drag && self.triangle.is_moving(), disturbance };
         let k = pooled.newest().value;
-        let information = self.triangle.keep(asked.disturbance, asked.drag).information();
+        let information = self.triangle.keep(asked.disturbance, asked.drag, common.row_rate2).information();
         let excitation2 = k * k * (information / self.triangle.constant());
         let stays = if self.used.count() > 0.0 { EXCITATION_STAYS } else { 1.0 };
         let excited = excitation2 >= stays * common.excitation2;
         // More independent rows than unknowns, or the residual says nothing.
         let enough = self.rows(common) > common.colour * (asked.count() + 1.0);
-        self.keep(if excited && enough { asked } else { Columns::default() });
+        self.keep(if excited && enough { asked } else { Columns::default() }, common);
     }
 
     /// Drops, worst first, what k as it is known with all candidates cannot tell.
@@ -89,15 +89,15 @@ impl Axis {
             } else {
                 kept.disturbance = false;
             }
-            self.keep(kept);
+            self.keep(kept, common);
             self.weigh(k.value, common);
         }
         self.used = kept;
     }
 
-    fn keep(&mut self, columns: Columns) {
+    fn keep(&mut self, columns: Columns, common: &Common) {
         self.columns = columns;
-        self.reduced = self.triangle.keep(columns.disturbance, columns.drag);
+        self.reduced = self.triangle.keep(columns.disturbance, columns.drag, common.row_rate2);
     }
 
     /// The rows taken in, as far as the window was open: the noise of ẑ2 grows faster with it than its signals do.
