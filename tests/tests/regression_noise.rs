@@ -13,6 +13,7 @@ const FLIGHT: DragFlight = DragFlight {
     disturbance: [0.3, -0.4, 0.25],
     amplitude: [0.8, 0.6, 0.5],
     noise: 0.002,
+    flutter: 0.0,
 };
 
 /// Error and reported sd of k, then of D and d of each axis.
