@@ -37,7 +37,8 @@ impl<const N: usize> DragEstimator<N> {
         self.axes.each_ref().map(|axis| {
             let count = axis.triangle.count();
             let used = axis.triangle.keep(axis.used.disturbance, axis.used.drag, self.common.row_rate2);
-            (count > 0.0).then(|| used.residual(k) * self.common.per_scale2 / count)
+            let variance = used.residual(k) * self.common.per_scale2 / count;
+            (count > 0.0 && variance.is_finite()).then_some(variance)
         })
     }
 
@@ -82,18 +83,18 @@ impl<const N: usize> DragEstimator<N> {
 
     /// The regression's inner signals: for logs and tests, not for control.
     pub fn diagnostics(&self) -> [DragDiagnostics; N] {
-        let k = self.pooled.newest().value;
+        let k = self.pooled.credible();
         let scale = self.common.identifier.scale;
         self.axes.each_ref().map(|axis| {
             let row = axis.row(&self.clock);
             let (z2, z0, zv, zu) = (row.z2 / scale, row.z0 / scale, -row.minus_zv / scale, row.zu / scale);
-            let explained = k * z0 - axis.drag.value * zv + axis.disturbance.value * zu;
+            let explained = |k| k * z0 - axis.drag.value * zv + axis.disturbance.value * zu;
             DragDiagnostics {
                 z2,
                 z0,
                 zv,
                 zu,
-                residual: if k == 0.0 { 0.0 } else { z2 - explained },
+                residual: k.map_or(0.0, |k| z2 - explained(k)),
                 innovation: axis.observer.state().innovation(),
             }
         })

@@ -74,17 +74,22 @@ impl Axis {
         self.weigh(k.value, common);
         while kept.count() > 0.0 {
             let (drag, disturbance) = self.terms(k);
-            let drag_excess = if kept.drag { excess(&drag, common.drag_variance, self.used.drag) } else { 0.0 };
-            let disturbance_excess = if kept.disturbance {
-                excess(&disturbance, common.disturbance_variance, self.used.disturbance)
-            } else {
-                0.0
+            let drag_excess = match kept.drag {
+                true if is_slight(&drag, common) => excess(&drag, common.drag_variance, self.used.drag),
+                true => f32::MAX,
+                false => 0.0,
             };
-            let steep = kept.drag && !(drag.value.abs() * common.period <= DragModel::LARGEST_DELTA);
-            if drag_excess <= 1.0 && disturbance_excess <= 1.0 && !steep {
+            let disturbance_excess = match kept.disturbance {
+                true if is_gentle(&disturbance) => {
+                    excess(&disturbance, common.disturbance_variance, self.used.disturbance)
+                }
+                true => f32::MAX,
+                false => 0.0,
+            };
+            if drag_excess <= 1.0 && disturbance_excess <= 1.0 {
                 break;
             }
-            if steep || drag_excess >= disturbance_excess {
+            if drag_excess >= disturbance_excess {
                 kept.drag = false;
             } else {
                 kept.disturbance = false;
@@ -128,6 +133,10 @@ impl Axis {
     fn settle(&mut self, pooled: &Pooled, clock: &Clock, common: &Common) {
         let known = pooled.newest();
         (self.drag, self.disturbance) = self.terms(known);
+        if !(is_slight(&self.drag, common) && is_gentle(&self.disturbance)) {
+            // Another k than the one they were chosen with has thrown them off.
+            (self.drag, self.disturbance, self.used) = Default::default();
+        }
         let k = if let Some(k) = pooled.valid().map(|k| k.value) {
             let drift = self.own.drift + self.disturbance.value;
             let model = DragModel::new(k, self.drag.value, drift, &common.observer);
@@ -163,5 +172,15 @@ impl Axis {
 /// The variance over its limit; more than any limit where it is none.
 fn excess(estimate: &Estimate, limit: f32, used: bool) -> f32 {
     let share = estimate.variance / if used { VARIANCE_STAYS * limit } else { limit };
-    if estimate.value.is_finite() && share.is_finite() { share } else { f32::MAX }
+    if share.is_finite() { share } else { f32::MAX }
+}
+
+/// Whether D is one that the model holds for.
+fn is_slight(drag: &Estimate, common: &Common) -> bool {
+    drag.value.abs() * common.period <= DragModel::LARGEST_DELTA && drag.variance.is_finite()
+}
+
+/// Whether d is within what a known drift may be.
+fn is_gentle(disturbance: &Estimate) -> bool {
+    disturbance.value.abs() <= 1e6 && disturbance.variance.is_finite()
 }
