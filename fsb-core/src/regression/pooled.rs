@@ -19,10 +19,11 @@ pub(super) struct Pooled {
 /// k = Σ info k_i / Σ info, and its variance, with the columns that take part at present free on each axis.
 pub(super) fn read(axes: &mut [Axis], common: &Common) -> Estimate {
     let information: f32 = axes.iter().map(|axis| axis.reduced.information()).sum();
-    if !(information > 0.0) {
+    let per_information = 1.0 / information;
+    // Nothing known, or so little that it has no inverse.
+    if information.is_nan() || !per_information.is_finite() {
         return Estimate { value: 0.0, variance: f32::MAX };
     }
-    let per_information = 1.0 / information;
     let mut value = 0.0;
     for axis in axes.iter_mut() {
         axis.share = axis.reduced.information() * per_information;

@@ -108,10 +108,11 @@ impl<const N: usize> DragEstimator<N> {
         let share = periods as f32 * common.substep_share;
         let mut repaired = *inputs;
         for (f, axis) in repaired.iter_mut().zip(axes) {
-            if !(f.abs() <= common.input_limit) {
-                counters.rejected_inputs = counters.rejected_inputs.saturating_add(1);
-                *f = axis.moments.j1 / share;
+            if f.abs() <= common.input_limit {
+                continue;
             }
+            counters.rejected_inputs = counters.rejected_inputs.saturating_add(1);
+            *f = axis.moments.j1 / share;
         }
         repaired
     }
