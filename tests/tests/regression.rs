@@ -59,62 +59,6 @@ fn exact() {
     }
 }
 
-fn is_unknown(estimator: &DragEstimator<3>) -> bool {
-    estimator.terms().iter().all(|t| t.drag == Term::NotObservable && t.disturbance == Term::NotObservable)
-}
-
-/// Hover, without noise, with noise, and with a known force that flutters: k from gravity, and no D or d at any time.
-#[test]
-fn hover_tells_k_alone() {
-    for (noise, flutter) in [(0.0, 0.0), (0.002, 0.0), (0.002, 0.01)] {
-        let hover = DragFlight { amplitude: [0.0; 3], disturbance: [0.0; 3], noise, flutter, ..FLIGHT };
-        let mut estimator = estimator(hover.period);
-        let mut rng = Pcg64::seed_from_u64(2);
-        for instant in hover.fly(60.0, &mut rng) {
-            feed(&mut estimator, &instant);
-            assert!(is_unknown(&estimator), "{} s: {:?}", instant.t, estimator.terms());
-        }
-        let k = f64::from(estimator.parameter().expect("valid").value) / hover.k - 1.0;
-        println!("noise {noise} m, flutter {flutter} m/s²: k {k:.1e}");
-        assert!(k.abs() < 1e-3);
-    }
-}
-
-/// Two axes move, z hovers: theirs are known, its own are not, and k is right.
-#[test]
-fn an_axis_that_hovers_does_not_spoil_the_others() {
-    let flight = DragFlight { amplitude: [0.8, 0.6, 0.0], disturbance: [0.3, -0.4, 0.0], noise: 0.001, ..FLIGHT };
-    let mut estimator = estimator(flight.period);
-    fly(&mut estimator, &flight, 20.0, 3);
-    let [x, y, z] = estimator.terms();
-    println!("{x:?} {y:?} {z:?}");
-    assert_eq!([z.drag, z.disturbance], [Term::NotObservable; 2]);
-    for (i, terms) in [x, y].into_iter().enumerate() {
-        assert!(
-            (value(terms.drag) - flight.drag[i]).abs() < 2e-3
-                && (value(terms.disturbance) - flight.disturbance[i]).abs() < 2e-3
-        );
-    }
-    assert!((f64::from(estimator.parameter().expect("valid").value) / flight.k - 1.0).abs() < 1e-3);
-}
-
-/// What has been learnt in flight stays known in the hover after it.
-#[test]
-fn known_terms_stay_known() {
-    let mut estimator = estimator(FLIGHT.period);
-    let flight = DragFlight { noise: 0.001, ..FLIGHT };
-    let (mut flyer, mut rng) = (Flyer::new(&flight), Pcg64::seed_from_u64(4));
-    fly_on(&mut estimator, &mut flyer, &flight, 30.0, &mut rng);
-    let before = estimator.terms();
-    let hover = DragFlight { amplitude: [0.0; 3], ..flight };
-    fly_on(&mut estimator, &mut flyer, &hover, 120.0, &mut rng);
-    for (i, (terms, before)) in estimator.terms().into_iter().zip(before).enumerate() {
-        println!("{i}: {terms:?}, in flight {before:?}");
-        assert!((value(terms.drag) - FLIGHT.drag[i]).abs() < 0.01);
-        assert!((value(terms.disturbance) - FLIGHT.disturbance[i]).abs() < 0.01);
-    }
-}
-
 /// Only what is asked for is identified; what is not counts as zero.
 #[test]
 fn as_chosen_per_axis() {
@@ -236,5 +180,26 @@ fn an_hour_at_a_thousand_hertz() {
         assert!(
             (value(terms.drag) - expected[0]).abs() < 1e-3 && (value(terms.disturbance) - expected[1]).abs() < 1e-3
         );
+    }
+}
+
+/// When k̂ becomes valid with D and d known, position and velocity are right at once.
+#[test]
+fn right_at_once() {
+    let config = DragConfig { drift: DRIFT, parameter_settle: 6.0, ..DragConfig::new(FLIGHT.period) };
+    let mut estimator = DragEstimator::new(&config).expect("a valid configuration");
+    let (mut flyer, mut rng) = (Flyer::new(&FLIGHT), Pcg64::seed_from_u64(13));
+    let mut seen = 0;
+    while seen < 20 {
+        let instant = flyer.step(&FLIGHT, &mut rng);
+        estimator.measure(&instant.measured.map(Some)).expect("in step");
+        for ((state, truth), y) in estimator.states().into_iter().zip(instant.velocity).zip(instant.measured) {
+            let Some(state) = state else { continue };
+            seen += 1;
+            let off = (f64::from(state.velocity) - truth).abs();
+            assert!(off < 1e-4 && (state.position - y).abs() < 1e-5, "{} s: {off} m/s", instant.t);
+        }
+        assert!(instant.t < 7.0 && estimator.terms().iter().all(|t| seen == 0 || t.drag.value().is_some()));
+        estimator.apply(&instant.force);
     }
 }

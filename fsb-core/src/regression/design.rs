@@ -96,7 +96,7 @@ impl Common {
         {
             return Err(ConfigError::OutOfRange("nominal"));
         }
-        let row_every = row_every as u32;
+        let row_every = (row_every as u32).max(1);
         Ok(Self {
             substeps: config.substeps,
             substep: Substep::new(config.substeps)?,

@@ -60,7 +60,7 @@ use pooled::Pooled;
 /// Non-finite policy: a measurement or an input that is not finite, or larger than its limit, is rejected and counted; a
 /// rejected measurement counts as missed and is predicted, a rejected input is replaced by the axis's mean input of late.
 /// No allocation, no panic, no transcendental, bounded work a call.
-/// Cost: per measurement and axis some 110 operations, and about 350 per row of the regression (every 0.1/λ), spread over
+/// Cost: per measurement and axis some 110 operations, and about 400 per row of the regression (every 0.1/λ), spread over
 /// the measurements in between.
 #[derive(Clone, Copy, Debug)]
 pub struct DragEstimator<const N: usize> {

@@ -66,7 +66,7 @@ impl<const N: usize> DragEstimator<N> {
             clock.advance(common);
         }
         clock.weigh(common);
-        for (axis, y) in axes.iter_mut().zip(positions) {
+        for ((axis, y), index) in axes.iter_mut().zip(positions).zip(0..) {
             let mut y = y.unwrap_or(f32::NAN);
             axis.repair(&mut y, m1, clock, common);
             if clock.started {
@@ -75,7 +75,7 @@ impl<const N: usize> DragEstimator<N> {
             if axis.present {
                 axis.identify(y, clock, common);
             }
-            if clock.is_folding() {
+            if clock.folds(index) {
                 axis.fold();
             }
         }
