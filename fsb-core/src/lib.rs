@@ -13,6 +13,7 @@ pub mod identifier;
 pub mod moments;
 pub mod observer;
 pub mod readout;
+pub mod regression;
 pub mod snapshot;
 pub mod tuning;
 pub mod vehicle;

@@ -1,0 +1,186 @@
+//! What is done between two rows of the regression, a few items at each measurement:
+//!
+//! 1. each axis takes its row in, and names the columns that may take part;
+//! 2. k with all of those;
+//! 3. each axis drops the columns that this k cannot tell well enough;
+//! 4. k with what is left, and its status;
+//! 5. each axis's D and d for that k, and the observer's model.
+//!
+//! Columns dropped count as zero. An axis that is not excited beyond hover therefore says of k what gravity says, and does
+//! not spoil it for the others.
+
+use super::axis::{Axis, Columns, Source};
+use super::clock::Clock;
+use super::config::Identify;
+use super::design::{Common, items};
+use super::model::DragModel;
+use super::pooled::{Pooled, read};
+use super::reduced::Estimate;
+use super::seed::seed;
+
+/// The square of two thirds: how far the excitation may fall before a column that is used no longer is.
+const EXCITATION_STAYS: f32 = 4.0 / 9.0;
+/// Twice the standard deviation, likewise.
+const VARIANCE_STAYS: f32 = 4.0;
+
+/// The items that fall to the present measurement.
+pub(super) fn take(axes: &mut [Axis], pooled: &mut Pooled, clock: &mut Clock, common: &Common) {
+    let first = clock.phase * common.items_per_measurement;
+    let end = items(axes.len() as u32).min(first.saturating_add(common.items_per_measurement));
+    for item in first..end {
+        one(item as usize, axes, pooled, clock, common);
+    }
+    clock.phase = if clock.phase + 1 >= common.row_every { 0 } else { clock.phase + 1 };
+}
+
+fn one(item: usize, axes: &mut [Axis], pooled: &mut Pooled, clock: &Clock, common: &Common) {
+    let n = axes.len();
+    if item == n {
+        pooled.trial = read(axes, common);
+    } else if item == 2 * n + 1 {
+        pooled.settle(axes, clock.count >= common.parameter_settle, common);
+    } else if item < n {
+        if let Some(axis) = axes.get_mut(item) {
+            axis.collect(clock, common);
+            axis.nominate(pooled, common);
+        }
+    } else if item <= 2 * n {
+        if let Some(axis) = axes.get_mut(item - n - 1) {
+            axis.choose(pooled.trial, common);
+        }
+    } else if let Some(axis) = axes.get_mut(item - 2 * n - 2) {
+        axis.settle(pooled, clock, common);
+    }
+}
+
+impl Axis {
+    /// The columns that may take part: asked for, with a part of their own, on an axis excited beyond hover.
+    fn nominate(&mut self, pooled: &Pooled, common: &Common) {
+        let Identify { drag, disturbance } = self.own.identify;
+        let asked = Columns { drag: drag && self.triangle.is_moving(), disturbance };
+        let k = pooled.newest().value;
+        let information = self.triangle.keep(asked.disturbance, asked.drag, common.row_rate2).information();
+        let excitation2 = k * k * (information / self.triangle.constant());
+        let stays = if self.used.count() > 0.0 { EXCITATION_STAYS } else { 1.0 };
+        let excited = excitation2 >= stays * common.excitation2;
+        // More independent rows than unknowns, or the residual says nothing.
+        let enough = self.rows(common) > common.colour * (asked.count() + 1.0);
+        self.keep(if excited && enough { asked } else { Columns::default() }, common);
+    }
+
+    /// Drops, worst first, what k as it is known with all candidates cannot tell.
+    fn choose(&mut self, k: Estimate, common: &Common) {
+        let mut kept = self.columns;
+        self.weigh(k.value, common);
+        while kept.count() > 0.0 {
+            let (drag, disturbance) = self.terms(k);
+            let drag_excess = match kept.drag {
+                true if is_slight(&drag, common) => excess(&drag, common.drag_variance, self.used.drag),
+                true => f32::MAX,
+                false => 0.0,
+            };
+            let disturbance_excess = match kept.disturbance {
+                true if is_gentle(&disturbance) => {
+                    excess(&disturbance, common.disturbance_variance, self.used.disturbance)
+                }
+                true => f32::MAX,
+                false => 0.0,
+            };
+            if drag_excess <= 1.0 && disturbance_excess <= 1.0 {
+                break;
+            }
+            if drag_excess >= disturbance_excess {
+                kept.drag = false;
+            } else {
+                kept.disturbance = false;
+            }
+            self.keep(kept, common);
+            self.weigh(k.value, common);
+        }
+        self.used = kept;
+    }
+
+    fn keep(&mut self, columns: Columns, common: &Common) {
+        self.columns = columns;
+        self.reduced = self.triangle.keep(columns.disturbance, columns.drag, common.row_rate2);
+    }
+
+    /// The rows taken in, as far as the window was open: the noise of ẑ2 grows faster with it than its signals do.
+    fn rows(&self, common: &Common) -> f32 {
+        self.triangle.opening() * common.per_scale
+    }
+
+    /// The variance of the residual for this k: rows are not independent, and those that the unknowns have taken do not
+    /// count.
+    pub fn weigh(&mut self, k: f32, common: &Common) {
+        let worth = self.rows(common) - common.colour * (self.columns.count() + self.share);
+        let variance = common.colour * self.reduced.residual(k) / worth;
+        self.row_variance = if worth > 0.0 && variance >= 0.0 { variance } else { f32::MAX };
+    }
+
+    /// D and d for this k; zero where they do not take part.
+    fn terms(&self, k: Estimate) -> (Estimate, Estimate) {
+        let row_variance = self.row_variance;
+        let drag = if self.columns.drag { self.reduced.drag(k, row_variance) } else { Estimate::default() };
+        let disturbance = if self.columns.disturbance {
+            self.reduced.disturbance(k, drag.value, row_variance)
+        } else {
+            Estimate::default()
+        };
+        (drag, disturbance)
+    }
+
+    fn settle(&mut self, pooled: &Pooled, clock: &Clock, common: &Common) {
+        let known = pooled.newest();
+        (self.drag, self.disturbance) = self.terms(known);
+        if !(is_slight(&self.drag, common) && is_gentle(&self.disturbance)) {
+            // Another k than the one they were chosen with has thrown them off.
+            (self.drag, self.disturbance, self.used) = Default::default();
+        }
+        let k = if let Some(k) = pooled.valid().map(|k| k.value) {
+            let drift = self.own.drift + self.disturbance.value;
+            let model = DragModel::new(k, self.drag.value, drift, &common.observer);
+            if self.source != Source::Identified && self.present && !seed(self, k, &model, clock, common) {
+                return;
+            }
+            self.source = Source::Identified;
+            self.model = model;
+            return;
+        } else if common.nominal.is_some() {
+            self.follow_nominal(common);
+            return;
+        } else if let Some(k) = pooled.credible() {
+            self.source = Source::Provisional;
+            k
+        } else {
+            self.source = Source::Nothing;
+            self.model = DragModel::default();
+            return;
+        };
+        self.model = DragModel::new(k, 0.0, self.own.drift, &common.observer);
+    }
+
+    /// The configured k0 predicts, if there is one.
+    pub fn follow_nominal(&mut self, common: &Common) {
+        if let Some(k) = common.nominal {
+            self.source = Source::Nominal;
+            self.model = DragModel::new(k, 0.0, self.own.drift, &common.observer);
+        }
+    }
+}
+
+/// The variance over its limit; more than any limit where it is none.
+fn excess(estimate: &Estimate, limit: f32, used: bool) -> f32 {
+    let share = estimate.variance / if used { VARIANCE_STAYS * limit } else { limit };
+    if share.is_finite() { share } else { f32::MAX }
+}
+
+/// Whether D is one that the model holds for.
+fn is_slight(drag: &Estimate, common: &Common) -> bool {
+    drag.value.abs() * common.period <= DragModel::LARGEST_DELTA && drag.variance.is_finite()
+}
+
+/// Whether d is within what a known drift may be.
+fn is_gentle(disturbance: &Estimate) -> bool {
+    disturbance.value.abs() <= 1e6 && disturbance.variance.is_finite()
+}
