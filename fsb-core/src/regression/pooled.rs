@@ -56,7 +56,7 @@ impl Pooled {
             ParameterStatus::Settling
         } else if !self.read {
             ParameterStatus::Unexcited
-        } else if self.value > rule.max {
+        } else if self.newest.value > rule.max {
             ParameterStatus::AboveRange
         } else if !in_range {
             ParameterStatus::BelowRange
