@@ -9,6 +9,9 @@
 //! var κ = Σ φ² var r/(T² Σ φ²)², var r being σ² times (6 + 2p)/(1+p)³, the power of (1-z⁻¹)²/(1-p z⁻¹)². An acceleration across φ, by
 //! wind or drag, leaves nothing in κ; one along it does, as Δk of its size does.
 //!
+//! The sums go over the axes at an instant, which tells a large change at once, and over the last 10/λ as well, which finds it
+//! in noise: r has little power where φ has most, so that its var κ, taken as that of white noise, is on the safe side.
+//!
 //! A change is one by more than `relative` and by more than `sigmas`, several instants in succession, and never where the input
 //! is small beside what it has been: there an unknown moment would be taken for a change of inertia.
 
@@ -41,7 +44,8 @@ pub(super) struct Detector {
     responses: [Response; 3],
     /// Mean of φ² since the start, of each parameter.
     usual: [f32; 3],
-    streaks: [u32; 3],
+    /// At the instant, and over the last ones.
+    statistics: [Statistic; 2],
     instants: u32,
     /// The last instant was measured.
     measured: bool,
@@ -80,7 +84,7 @@ impl Detector {
             pooled,
             responses: [Response::default(); 3],
             usual: [0.0; 3],
-            streaks: [0; 3],
+            statistics: [Statistic::new(0.0), Statistic::new(libm::exp(-0.1 * lambda * period))],
             instants: 0,
             measured: false,
         })
@@ -89,7 +93,9 @@ impl Detector {
     /// The identification has begun anew.
     pub fn reset(&mut self) {
         self.usual = [0.0; 3];
-        self.streaks = [0; 3];
+        for statistic in &mut self.statistics {
+            statistic.reset();
+        }
         self.instants = 0;
     }
 
@@ -101,7 +107,7 @@ impl Detector {
     }
 
     /// After a measurement instant; `known` is k of each axis, where it is identified. Whether a parameter has changed.
-    /// Cost: about 80 operations.
+    /// Cost: about 130 operations.
     pub fn observe(&mut self, view: &InnovationView<3>, known: &[Option<f32>; 3]) -> bool {
         for (response, input) in self.responses.iter_mut().zip(&view.moments) {
             response.phi = response.e + response.w + input.j2;
@@ -117,18 +123,19 @@ impl Detector {
         }
         self.instants = self.instants.saturating_add(1);
         let terms = self.terms(view);
-        let of_parameters = terms.iter().zip(&mut self.usual).zip(&mut self.streaks).zip(known);
-        let mut changed = false;
-        for (((term, usual), streak), k) in of_parameters {
-            *usual += (term.square - *usual) / self.instants as f32;
-            let judged = self.instants > self.hold_off && term.square > Self::LEAST * *usual;
-            // κ beyond both limits, each multiplied by T² Σ φ².
-            let shows = k.is_some_and(|k| term.product.abs() > self.relative * k * self.period2 * term.square)
-                && term.product * term.product > self.sigmas2 * term.variance;
-            *streak = if judged && shows { *streak + 1 } else { 0 };
-            changed |= *streak >= self.enough;
+        let share = 1.0 / self.instants as f32;
+        for (usual, term) in self.usual.iter_mut().zip(&terms) {
+            *usual += (term.square - *usual) * share;
         }
-        changed
+        let limits = Limits {
+            relative: self.relative * self.period2,
+            sigmas2: self.sigmas2,
+            least: self.usual.map(|usual| Self::LEAST * usual),
+            open: self.instants > self.hold_off,
+        };
+        let [now, late] = &mut self.statistics;
+        let streak = now.add(&terms, known, &limits).max(late.add(&terms, known, &limits));
+        streak >= self.enough
     }
 
     /// Of each parameter, the first one where all axes share it.
@@ -155,4 +162,51 @@ struct Terms {
     product: f32,
     square: f32,
     variance: f32,
+}
+
+/// What a change has to exceed.
+struct Limits {
+    relative: f32,
+    sigmas2: f32,
+    /// For φ².
+    least: [f32; 3],
+    open: bool,
+}
+
+/// The terms over a fading memory, and for how many instants they have shown a change.
+#[derive(Clone, Copy, Debug)]
+struct Statistic {
+    /// e^(-T/τ), zero for none.
+    keep: f32,
+    sums: [Terms; 3],
+    streaks: [u32; 3],
+}
+
+impl Statistic {
+    fn new(keep: f64) -> Self {
+        Self { keep: keep as f32, sums: [Terms::default(); 3], streaks: [0; 3] }
+    }
+
+    fn reset(&mut self) {
+        *self = Self { keep: self.keep, ..Self::new(0.0) };
+    }
+
+    /// The longest streak.
+    fn add(&mut self, terms: &[Terms; 3], known: &[Option<f32>; 3], limits: &Limits) -> u32 {
+        let mut longest = 0;
+        let (keep, share) = (self.keep, 1.0 - self.keep);
+        let of_parameters = self.sums.iter_mut().zip(&mut self.streaks).zip(terms).zip(known).zip(&limits.least);
+        for ((((sum, streak), term), k), least) in of_parameters {
+            sum.product = keep * sum.product + term.product;
+            sum.square = keep * sum.square + term.square;
+            sum.variance = keep * keep * sum.variance + term.variance;
+            // κ beyond both limits, each multiplied by T² Σ φ².
+            let shows = k.is_some_and(|k| sum.product.abs() > limits.relative * k * sum.square)
+                && sum.product * sum.product > limits.sigmas2 * sum.variance;
+            let judged = limits.open && share * sum.square > *least;
+            *streak = if judged && shows { streak.saturating_add(1) } else { 0 };
+            longest = longest.max(*streak);
+        }
+        longest
+    }
 }
