@@ -5,15 +5,16 @@ use super::change::Detector;
 use super::config::{GroupConfig, VehicleConfig};
 use super::delay::Delay;
 use super::design;
-use super::gyroscopic;
+use super::gyroscopic::{self, Gyroscopic};
 use super::measured::{Attitude, Measured, Wrench};
-use super::output::{Events, Group, Identified, VehicleCounters, VehicleModel};
+use super::output::{Events, Group, VehicleCounters};
 use super::retroactive::Retroactive;
+use super::triple::{all, difference, each, positions, rates, within};
 use crate::attitude::{AttitudeError, BodyAngles};
 use crate::error::ConfigError;
-use crate::estimator::{AxisState, Estimator};
+use crate::estimator::Estimator;
 use crate::moments::{InputMoments, Substep};
-use crate::readout::{Memory, Parameter, ParameterStatus};
+use crate::readout::{Memory, ParameterStatus};
 
 /// Mass, moments of inertia and state of a vehicle whose position and attitude are measured.
 ///
@@ -44,6 +45,7 @@ pub struct VehicleEstimator<const D: usize> {
     pub(super) period: f32,
     /// The attitude was measured in the last update.
     pub(super) attitude_measured: bool,
+    position_limit: f32,
     force_limit: f32,
     torque_limit: f32,
     last: Wrench,
@@ -52,7 +54,7 @@ pub struct VehicleEstimator<const D: usize> {
     translation_change: Option<Detector>,
     rotation_change: Option<Detector>,
     begun: bool,
-    counters: VehicleCounters,
+    pub(super) counters: VehicleCounters,
 }
 
 impl<const D: usize> VehicleEstimator<D> {
@@ -77,6 +79,7 @@ impl<const D: usize> VehicleEstimator<D> {
             forces: Delay::new(latest - late),
             period: config.period as f32,
             attitude_measured: false,
+            position_limit: config.translation.measurement_limit as f32,
             force_limit: config.translation.input_limit as f32,
             torque_limit: config.rotation.input_limit as f32,
             last: Wrench::default(),
@@ -185,14 +188,15 @@ impl<const D: usize> VehicleEstimator<D> {
     }
 
     fn take_position(&mut self, position: Option<[f32; 3]>, events: &mut Events) {
+        // Where one coordinate is nonsense the others are not to be trusted.
+        let sound = position.filter(|position| within(position, self.position_limit));
+        events.position_rejected = position.is_some() && sound.is_none();
         if self.translation.is_due() {
-            let before = self.translation.counters().rejected_measurements;
             // In step, as it is due.
-            let _ = self.translation.measure(&each(position));
-            events.position_rejected = self.translation.counters().rejected_measurements != before;
+            let _ = self.translation.measure(&each(sound));
             events.mass_changed = self.mass_has_changed();
         } else {
-            events.position_out_of_step = position.is_some();
+            events.position_out_of_step = sound.is_some();
         }
     }
 
@@ -217,8 +221,6 @@ impl<const D: usize> VehicleEstimator<D> {
 
     /// Force and torque, each within its limit or else the one before.
     fn checked(&mut self, applied: &Wrench, events: &mut Events) -> Wrench {
-        // Written so that NaN fails it.
-        let within = |values: &[f32; 3], limit: f32| values.iter().all(|x| x.abs() <= limit);
         if within(&applied.force, self.force_limit) {
             self.last.force = applied.force;
         } else {
@@ -230,42 +232,6 @@ impl<const D: usize> VehicleEstimator<D> {
             events.wrench_rejected = true;
         }
         self.last
-    }
-
-    /// 1/I that is predicted with, where all three are known.
-    pub(super) fn reciprocals(&self) -> Option<[f32; 3]> {
-        all(self.rotation.prediction_parameters())
-    }
-
-    /// m (kg), where it is valid or held.
-    pub fn mass(&self) -> Option<Identified> {
-        let [k] = self.translation.parameters();
-        k.map(inverse)
-    }
-
-    /// I_x, I_y, I_z (kg m²), where they are valid or held.
-    pub fn inertia(&self) -> [Option<Identified>; 3] {
-        self.rotation.parameters().map(|k| k.map(inverse))
-    }
-
-    /// Why the mass is valid or not.
-    pub fn mass_status(&self) -> ParameterStatus {
-        let [status] = self.translation.parameter_status();
-        status
-    }
-
-    /// Why the moments of inertia are valid or not.
-    pub fn inertia_status(&self) -> [ParameterStatus; 3] {
-        self.rotation.parameter_status()
-    }
-
-    /// What the state is predicted with, and what a controller may divide by.
-    pub fn model(&self) -> VehicleModel {
-        let [k] = self.translation.prediction_parameters();
-        VehicleModel {
-            mass: k.map(|k| 1.0 / k),
-            inertia: self.rotation.prediction_parameters().map(|k| k.map(|k| 1.0 / k)),
-        }
     }
 
     /// Identifies the parameters of a group anew, as after a change of load: what is known goes on being handed out and used
@@ -316,54 +282,6 @@ impl<const D: usize> VehicleEstimator<D> {
         self.attitude_measured = false;
         self.begun = false;
     }
-
-    /// The estimator of x, y, z: for its diagnostics.
-    pub const fn translation(&self) -> &Estimator<3, 1> {
-        &self.translation
-    }
-
-    /// The estimator of the body angles: for its diagnostics.
-    pub const fn rotation(&self) -> &Estimator<3, 3> {
-        &self.rotation
-    }
-
-    /// What has been rejected, lost or changed.
-    pub const fn counters(&self) -> VehicleCounters {
-        self.counters
-    }
-}
-
-/// ω_j ω_k and γ of a period.
-pub(super) struct Gyroscopic {
-    products: [f32; 3],
-    differences: [f32; 3],
-}
-
-impl Gyroscopic {
-    /// Adds τ_g to the torque, held at its value in the middle of the period.
-    pub fn add(torque: &mut [InputMoments; 3], rates: &[f32; 3], k: &[f32; 3], half_period: f32) -> Self {
-        let differences = gyroscopic::differences(&k.map(|k| 1.0 / k));
-        let mean = torque.map(|t| t.j1);
-        let products = gyroscopic::products_in_the_middle(&differences, k, rates, &mean, half_period);
-        for (moment, (product, gamma)) in torque.iter_mut().zip(products.iter().zip(&differences)) {
-            let f = gamma * product;
-            moment.j1 += f;
-            moment.j2 += 0.5 * f;
-        }
-        Self { products, differences }
-    }
-}
-
-pub(super) fn positions(states: &[Option<AxisState>; 3]) -> Option<[f32; 3]> {
-    all(states.map(|state| state.map(|s| s.position)))
-}
-
-pub(super) fn rates(states: &[Option<AxisState>; 3]) -> Option<[f32; 3]> {
-    all(states.map(|state| state.map(|s| s.velocity)))
-}
-
-pub(super) fn difference([ax, ay, az]: &[f32; 3], [bx, by, bz]: &[f32; 3]) -> [f32; 3] {
-    [ax - bx, ay - by, az - bz]
 }
 
 /// The detector of a group, where one is configured.
@@ -381,20 +299,4 @@ fn identified<const P: usize>(estimator: &Estimator<3, P>) -> [Option<f32>; P] {
         }
     }
     values
-}
-
-/// All three, or nothing.
-fn all([x, y, z]: [Option<f32>; 3]) -> Option<[f32; 3]> {
-    Some([x?, y?, z?])
-}
-
-fn each(values: Option<[f32; 3]>) -> [Option<f32>; 3] {
-    values.map_or([None; 3], |values| values.map(Some))
-}
-
-/// 1/k with var(k)/k⁴.
-fn inverse(k: Parameter) -> Identified {
-    let value = 1.0 / k.value;
-    let square = value * value;
-    Identified { value, variance: (k.variance * square) * square }
 }
