@@ -7,14 +7,14 @@ use super::delay::Delay;
 use super::design;
 use super::gyroscopic::{self, Gyroscopic};
 use super::measured::{Attitude, Measured, Wrench};
-use super::output::{Events, Group, VehicleCounters};
+use super::output::{Events, VehicleCounters};
 use super::retroactive::Retroactive;
 use super::triple::{all, difference, each, positions, rates, within};
 use crate::attitude::{AttitudeError, BodyAngles};
 use crate::error::ConfigError;
 use crate::estimator::Estimator;
 use crate::moments::{InputMoments, Substep};
-use crate::readout::{Memory, ParameterStatus};
+use crate::readout::Memory;
 
 /// Mass, moments of inertia and state of a vehicle whose position and attitude are measured.
 ///
@@ -50,9 +50,9 @@ pub struct VehicleEstimator<const D: usize> {
     torque_limit: f32,
     last: Wrench,
     /// Where the sums do not fade.
-    retroactive: Option<Retroactive>,
-    translation_change: Option<Detector>,
-    rotation_change: Option<Detector>,
+    pub(super) retroactive: Option<Retroactive>,
+    pub(super) translation_change: Option<Detector>,
+    pub(super) rotation_change: Option<Detector>,
     begun: bool,
     pub(super) counters: VehicleCounters,
 }
@@ -200,25 +200,6 @@ impl<const D: usize> VehicleEstimator<D> {
         }
     }
 
-    fn mass_has_changed(&mut self) -> bool {
-        let Some(detector) = &mut self.translation_change else { return false };
-        let [k] = identified(&self.translation);
-        let changed = detector.observe(&self.translation.innovation_view(), &[k, None, None]);
-        if changed {
-            self.reinitialise(Group::Translation);
-        }
-        changed
-    }
-
-    fn inertia_has_changed(&mut self) -> bool {
-        let Some(detector) = &mut self.rotation_change else { return false };
-        let changed = detector.observe(&self.rotation.innovation_view(), &identified(&self.rotation));
-        if changed {
-            self.reinitialise(Group::Rotation);
-        }
-        changed
-    }
-
     /// Force and torque, each within its limit or else the one before.
     fn checked(&mut self, applied: &Wrench, events: &mut Events) -> Wrench {
         if within(&applied.force, self.force_limit) {
@@ -232,38 +213,6 @@ impl<const D: usize> VehicleEstimator<D> {
             events.wrench_rejected = true;
         }
         self.last
-    }
-
-    /// Identifies the parameters of a group anew, as after a change of load: what is known goes on being handed out and used
-    /// until the new value is valid.
-    pub fn reinitialise(&mut self, group: Group) {
-        match group {
-            Group::Translation => {
-                self.translation.reinitialise_identifier();
-                if let Some(detector) = &mut self.translation_change {
-                    detector.reset();
-                }
-            }
-            Group::Rotation => {
-                self.rotation.reinitialise_identifier();
-                if let Some(retroactive) = &mut self.retroactive {
-                    retroactive.reset();
-                }
-                if let Some(detector) = &mut self.rotation_change {
-                    detector.reset();
-                }
-            }
-        }
-    }
-
-    /// What goes with the rotation begins anew with it.
-    fn begin_rotation(&mut self) {
-        if let Some(retroactive) = &mut self.retroactive {
-            retroactive.reset();
-        }
-        if let Some(detector) = &mut self.rotation_change {
-            detector.restart();
-        }
     }
 
     /// Forgets everything but the configuration and the counters.
@@ -288,15 +237,4 @@ impl<const D: usize> VehicleEstimator<D> {
 fn detector(config: &VehicleConfig, group: &GroupConfig, pooled: bool) -> Result<Option<Detector>, ConfigError> {
     let period = config.period * f64::from(group.substeps);
     config.change.as_ref().map(|rule| Detector::new(rule, group.observer.lambda, period, pooled)).transpose()
-}
-
-/// k of the parameters that are valid now, not held.
-fn identified<const P: usize>(estimator: &Estimator<3, P>) -> [Option<f32>; P] {
-    let mut values = estimator.parameters().map(|k| k.map(|k| k.value));
-    for (value, status) in values.iter_mut().zip(estimator.parameter_status()) {
-        if status != ParameterStatus::Valid {
-            *value = None;
-        }
-    }
-    values
 }

@@ -39,6 +39,7 @@
 //! | `gyroscopic` | ω × I ω as an input |
 //! | `retroactive` | the same with moments of inertia that were not known at the time |
 //! | `change` | whether a parameter has changed |
+//! | `reinitialise` | parameters identified anew |
 //! | `delay` | inputs waiting for a measurement that comes late |
 //! | `triple` | three numbers, one for each axis of a group |
 
@@ -52,6 +53,7 @@ mod gyroscopic;
 mod measured;
 mod output;
 mod readings;
+mod reinitialise;
 mod retroactive;
 mod state;
 mod triple;
