@@ -3,3 +3,5 @@
 pub mod analytic;
 pub mod drag_flight;
 pub mod flight;
+pub mod rigid_body;
+pub mod six_axes;
