@@ -61,6 +61,8 @@ pub struct GroupConfig {
     pub memory: Memory,
     /// The largest relative standard deviation at which a parameter becomes valid.
     pub max_relative_sd: f64,
+    /// The share of the acceleration that the model may leave unexplained; see [`crate::EstimatorConfig::max_misfit`].
+    pub max_misfit: Option<f64>,
     /// ε of the parameters (s): none is valid earlier.
     pub parameter_settle: f64,
     /// ε of the states (s): none is handed out earlier.
@@ -105,7 +107,7 @@ impl Expected {
 impl GroupConfig {
     /// λ = 4 of the identifier as in the design's table, and `observer` as the observer's; q = λ/2. Every period measured, not
     /// late, no blocks, least squares with infinite memory, valid at 5 %.
-    fn with_observer(observer: f64) -> Self {
+    fn with_observer(observer: f64, max_misfit: f64) -> Self {
         Self {
             substeps: 1,
             latency: 0,
@@ -116,6 +118,7 @@ impl GroupConfig {
             readout: Readout::LeastSquares,
             memory: Memory::Infinite,
             max_relative_sd: 0.05,
+            max_misfit: Some(max_misfit),
             parameter_settle: 0.0,
             state_settle: 0.0,
             measurement_limit: 1e5,
@@ -131,8 +134,8 @@ impl VehicleConfig {
     pub fn new(period: f64) -> Self {
         Self {
             period,
-            translation: GroupConfig::with_observer(10.0),
-            rotation: GroupConfig::with_observer(20.0),
+            translation: GroupConfig::with_observer(10.0, 0.02),
+            rotation: GroupConfig::with_observer(20.0, 0.1),
             gravity: 9.81,
             mass: Expected::within(1e-3, 1e3),
             inertia: [Expected::within(1e-7, 1e3); 3],
