@@ -6,7 +6,7 @@ use super::axis::Axis;
 use super::design::Common;
 use super::shared::IdentifierClock;
 use crate::identifier::{BlockMean, Coefficients, Stage};
-use crate::readout::{ParameterState, weight};
+use crate::readout::{ParameterState, Readout, weight};
 
 /// What all axes need in a round of single samples.
 #[derive(Clone, Copy)]
@@ -83,7 +83,7 @@ impl Axis {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         } else if coarse {
-            parameter.step_coarsely(0.0, 0.0);
+            parameter.step_coarsely(0.0, 0.0, 0.0);
         }
     }
 
@@ -103,7 +103,7 @@ impl Axis {
             }
         } else if coarse {
             // Nothing to add: those that share the parameter do not wait for this axis.
-            parameter.step_coarsely(0.0, 0.0);
+            parameter.step_coarsely(0.0, 0.0, 0.0);
         }
     }
 
@@ -134,7 +134,13 @@ impl Axis {
         let (up, down) = weight(common.readout, z2, z0);
         let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
-        parameter.step_coarsely(covariance.stride * down * z0, covariance.forgetting);
+        let noise = match common.readout {
+            Readout::LeastSquares => {
+                self.noise.measurement_variance() * clock.shape.variance() * common.identifier.scale2()
+            }
+            Readout::AbsoluteRatio => 0.0,
+        };
+        parameter.step_coarsely(covariance.stride * down * z0, noise, covariance.forgetting);
     }
 
     /// σ² var a, this axis's share of the variance of the numerator of k̂; `None` while the noise level is not known, unless

@@ -108,6 +108,8 @@ pub(crate) struct ParameterState {
     stepped: u8,
     /// Σ ω ẑ0 over the coarse steps.
     information: Accumulator,
+    /// Σ var ẑ2 of noise alone over the coarse steps.
+    echo: Accumulator,
     /// The newest quotient and its variance while the value from before is held.
     fresh: Parameter,
     pub nominal: Option<f32>,
@@ -129,6 +131,7 @@ impl ParameterState {
             members,
             stepped: 0,
             information: Accumulator::ZERO,
+            echo: Accumulator::ZERO,
             fresh: Parameter { value: 0.0, variance: f32::MAX },
             nominal,
             rule,
@@ -165,8 +168,9 @@ impl ParameterState {
         self.members = self.members.saturating_sub(1);
     }
 
-    /// A coarse step of one of its axes: `added` is what it adds to Σ ω ẑ0.
-    pub fn step_coarsely(&mut self, added: f32, forgetting: f32) {
+    /// A coarse step of one of its axes: `added` is what it adds to Σ ω ẑ0, and `noise` what noise alone adds to Σ ẑ2².
+    pub fn step_coarsely(&mut self, added: f32, noise: f32, forgetting: f32) {
+        self.echo.add_folded(noise - forgetting * self.echo.value());
         self.information.add_folded(added - forgetting * self.information.value());
         self.stepped = self.stepped.saturating_add(1);
         if self.stepped >= self.members {
@@ -205,15 +209,20 @@ impl ParameterState {
 
     /// The variance of the quotient from that of its numerator, where that is known. `scale2` is the square of the
     /// identifier's scale.
+    ///
+    /// A controller that feeds the estimates back answers to measurement noise with an input that goes with it. Where hardly
+    /// anything else moves, that pulls the quotient towards zero, by a share of about ½ Σ var ẑ2 / Σ (k ẑ0)² (observed: 38 %
+    /// at 1.3 times the noise). The square of it counts as variance.
     pub fn read_variance(&mut self, numerator: Option<f32>, scale2: f32) {
         self.stale = false;
         let information = self.information.value();
         if let Some(variance) = numerator
             && information > 0.0
         {
-            let variance = (variance / information) * (scale2 / information);
-            // Rounding can take a sum of next to nothing below zero.
-            let variance = if variance >= 0.0 { variance } else { f32::MAX };
+            let pull = 0.5 * self.echo.value() / (self.ratio.quotient() * information);
+            let variance = (variance / information) * (scale2 / information) + pull * pull;
+            // Rounding can take a sum of next to nothing below zero; no quotient yet makes it infinite.
+            let variance = if variance >= 0.0 && variance.is_finite() { variance } else { f32::MAX };
             *(if self.is_held() { &mut self.fresh.variance } else { &mut self.variance }) = variance;
         }
     }
@@ -326,6 +335,7 @@ stored!(ParameterState {
     members,
     stepped,
     information,
+    echo,
     fresh,
 });
 stored!(Parameter { value, variance });

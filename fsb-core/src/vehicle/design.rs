@@ -104,7 +104,8 @@ macro_rules! groups {
     ($($function:ident, $group:literal, $drift:literal, $nominal:literal;)+) => {
         $(names!($function, $group, $drift, $nominal, [
             "substeps", "block", "identifier.lambda", "identifier.q", "observer.lambda", "observer.q", "noise_sd",
-            "memory.tau", "max_misfit", "parameter_settle", "state_settle", "input_limit",
+            "memory.tau", "max_misfit", "parameter_settle", "state_settle", "input_limit", "guard.sigmas",
+            "guard.acceleration", "guard.floor", "guard.jump_after", "guard.bridge", "guard.frozen_after",
         ]);)+
     };
 }

@@ -12,7 +12,8 @@ use super::retroactive::Retroactive;
 use super::triple::{all, difference, each, positions, rates, within};
 use crate::attitude::{AttitudeError, BodyAngles};
 use crate::error::ConfigError;
-use crate::estimator::Estimator;
+use crate::estimator::Learning;
+use crate::guard::{Guarded, Verdict};
 use crate::moments::{InputMoments, Substep};
 use crate::readout::Memory;
 
@@ -29,14 +30,14 @@ use crate::readout::Memory;
 /// out (|ω| dt)²/12 of it, and the gyroscopic moment is held at its value in the middle. Actuators that lag are taken to have
 /// settled at what they are told in the first period.
 ///
-/// Non-finite policy: what is not finite or beyond its limit is rejected, counted and told in [`Events`]; a measurement is then
-/// missing, a force or torque is replaced by the one before. No allocation, no panic, no transcendental. Cost of an update: two
+/// Non-finite policy: what is not finite, beyond its limit or cannot be true ([`crate::guard`]) is rejected, counted and told in
+/// [`Events`]; a measurement is then missing, a force or torque is replaced by the one before. No allocation, no panic, no transcendental. Cost of an update: two
 /// estimators of three axes, and about 350 operations beside them (50 more with a lag, 260 with a rule for changes), of them 90
 /// for the attitude, 45 for turning the force and 200 for the gyroscopic moment; it does not depend on the latency.
 #[derive(Clone, Debug)]
 pub struct VehicleEstimator<const D: usize> {
-    pub(super) translation: Estimator<3, 1>,
-    pub(super) rotation: Estimator<3, 3>,
+    pub(super) translation: Guarded<3, 1>,
+    pub(super) rotation: Guarded<3, 3>,
     pub(super) angles: BodyAngles,
     pub(super) actuators: Actuators,
     /// What they do at the rotation's time; unknown before the first period.
@@ -53,6 +54,9 @@ pub struct VehicleEstimator<const D: usize> {
     force_limit: f32,
     torque_limit: f32,
     last: Wrench,
+    /// Attitudes in succession that were too far away to be followed, and how many make a start anew.
+    too_far: u32,
+    enough: u32,
     /// Where the sums do not fade.
     pub(super) retroactive: Option<Retroactive>,
     pub(super) translation_change: Option<Detector>,
@@ -67,8 +71,9 @@ impl<const D: usize> VehicleEstimator<D> {
     /// # Errors
     /// Names the first parameter that cannot be right, as it is written in [`VehicleConfig`].
     pub fn new(config: &VehicleConfig) -> Result<Self, ConfigError> {
-        let translation = Estimator::new(&design::translation(config)?).map_err(design::of_translation)?;
-        let rotation = Estimator::new(&design::rotation(config)?).map_err(design::of_rotation)?;
+        let translation =
+            Guarded::new(&design::translation(config)?, &config.translation.guard).map_err(design::of_translation)?;
+        let rotation = Guarded::new(&design::rotation(config)?, &config.rotation.guard).map_err(design::of_rotation)?;
         let (late, latest) = (config.rotation.latency, config.translation.latency);
         if latest as usize > D || latest < late {
             return Err(ConfigError::OutOfRange("translation.latency"));
@@ -87,6 +92,8 @@ impl<const D: usize> VehicleEstimator<D> {
             force_limit: config.translation.input_limit as f32,
             torque_limit: config.rotation.input_limit as f32,
             last: Wrench::default(),
+            too_far: 0,
+            enough: config.rotation.guard.jump_after,
             retroactive: match config.rotation.memory {
                 Memory::Infinite => Some(Retroactive::new(Substep::new(config.rotation.substeps)?)),
                 Memory::Fading { .. } => None,
@@ -146,32 +153,47 @@ impl<const D: usize> VehicleEstimator<D> {
     }
 
     fn take_attitude(&mut self, attitude: Option<&Attitude>, events: &mut Events) {
+        let before = self.angles;
         let taken = attitude.map(|attitude| self.angles.turn_to(&attitude.matrix()));
-        let angles = match taken {
-            Some(Ok(angles)) => Some(angles),
+        let mut angles = None;
+        match taken {
+            Some(Ok(turned)) => {
+                angles = Some(turned);
+                self.too_far = 0;
+            }
             Some(Err(AttitudeError::TurnTooLarge)) => {
-                events.attitude_lost = true;
-                self.rotation.restart();
-                self.begin_rotation();
-                Some(self.angles.angles())
+                self.too_far = self.too_far.saturating_add(1);
+                if self.too_far >= self.enough || positions(&self.rotation.states()).is_none() {
+                    events.attitude_lost = true;
+                    self.too_far = 0;
+                    self.rotation.restart();
+                    self.begin_rotation();
+                    angles = Some(self.angles.angles());
+                } else {
+                    // An outlier, unless it stays there.
+                    events.attitude_rejected = true;
+                    self.angles = before;
+                }
             }
-            Some(Err(_)) => {
+            Some(Err(_)) => events.attitude_rejected = true,
+            None => {}
+        }
+        if self.rotation.is_due() {
+            // In step, as it is due.
+            let verdicts = self.rotation.measure(&each(angles)).unwrap_or_default();
+            if angles.is_some() && !verdicts.iter().all(|verdict| verdict.is_used()) {
                 events.attitude_rejected = true;
-                None
+                angles = None;
+                self.angles = before;
             }
-            None => None,
-        };
+            self.look_back();
+            events.inertia_changed = self.inertia_has_changed();
+        }
         self.attitude_measured = angles.is_some();
         if angles.is_none()
             && let Some(predicted) = positions(&self.rotation.states())
         {
             self.angles.turn_by(&difference(&predicted, &self.angles.angles()));
-        }
-        if self.rotation.is_due() {
-            // In step, as it is due.
-            let _ = self.rotation.measure(&each(angles));
-            self.look_back();
-            events.inertia_changed = self.inertia_has_changed();
         }
     }
 
@@ -197,7 +219,11 @@ impl<const D: usize> VehicleEstimator<D> {
         events.position_rejected = position.is_some() && sound.is_none();
         if self.translation.is_due() {
             // In step, as it is due.
-            let _ = self.translation.measure(&each(sound));
+            let verdicts = self.translation.measure(&each(sound)).unwrap_or_default();
+            if sound.is_some() {
+                events.position_rejected = verdicts.iter().any(|verdict| !verdict.is_used());
+                events.position_jumped = verdicts.iter().any(|verdict| matches!(verdict, Verdict::Jumped(_)));
+            }
             events.mass_changed = self.mass_has_changed();
         } else {
             events.position_out_of_step = sound.is_some();
@@ -219,6 +245,26 @@ impl<const D: usize> VehicleEstimator<D> {
         self.last
     }
 
+    /// Whether to learn from now on, as [`Estimator::set_learning`](crate::Estimator::set_learning): on the ground
+    /// [`Learning::Contact`].
+    pub fn set_learning(&mut self, learning: Learning) {
+        if learning != self.translation.learning() {
+            self.translation.set_learning(learning);
+            self.rotation.set_learning(learning);
+            self.begin_identification();
+        }
+    }
+
+    /// The control loop has been late by so many control periods, in which the actuators did what they were told last. As
+    /// many updates with nothing measured, at most those that end in a start anew.
+    pub fn missed(&mut self, periods: u32) {
+        let last = self.last;
+        let most = self.translation.longest().max(self.rotation.longest());
+        for _ in 0..periods.min(most) {
+            self.update(&Measured::default(), &last);
+        }
+    }
+
     /// Forgets everything but the configuration and the counters.
     pub fn reset(&mut self) {
         self.translation.reset();
@@ -232,6 +278,7 @@ impl<const D: usize> VehicleEstimator<D> {
         self.forces.clear();
         self.actual = None;
         self.last = Wrench::default();
+        self.too_far = 0;
         self.attitude_measured = false;
         self.begun = false;
     }

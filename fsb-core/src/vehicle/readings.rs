@@ -3,7 +3,7 @@
 use super::estimator::VehicleEstimator;
 use super::output::{Identified, VehicleCounters, VehicleModel};
 use super::triple::all;
-use crate::estimator::Estimator;
+use crate::guard::Guarded;
 use crate::readout::{Parameter, ParameterStatus};
 
 impl<const D: usize> VehicleEstimator<D> {
@@ -44,12 +44,12 @@ impl<const D: usize> VehicleEstimator<D> {
     }
 
     /// The estimator of x, y, z: for its diagnostics.
-    pub const fn translation(&self) -> &Estimator<3, 1> {
+    pub const fn translation(&self) -> &Guarded<3, 1> {
         &self.translation
     }
 
     /// The estimator of the body angles: for its diagnostics.
-    pub const fn rotation(&self) -> &Estimator<3, 3> {
+    pub const fn rotation(&self) -> &Guarded<3, 3> {
         &self.rotation
     }
 

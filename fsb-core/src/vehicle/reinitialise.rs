@@ -28,6 +28,16 @@ impl<const D: usize> VehicleEstimator<D> {
         }
     }
 
+    /// What goes with the identifiers begins anew with them.
+    pub(super) fn begin_identification(&mut self) {
+        if let Some(retroactive) = &mut self.retroactive {
+            retroactive.reset();
+        }
+        for detector in [&mut self.translation_change, &mut self.rotation_change].into_iter().flatten() {
+            detector.reset();
+        }
+    }
+
     /// What goes with the rotation begins anew with it.
     pub(super) fn begin_rotation(&mut self) {
         if let Some(retroactive) = &mut self.retroactive {
