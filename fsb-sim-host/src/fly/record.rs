@@ -187,7 +187,7 @@ fn yardstick(scenario: &Scenario, seed: u64, every: u64, flight: &mut Flight) ->
     let (mut sums, mut errors) = (Sums::default(), Vec::with_capacity(flight.samples.len()));
     let diverged = fly(scenario, seed, &mut Yardstick::new(scenario)?, |moment, _| {
         sums.add(moment);
-        if moment.tick % every == 0 {
+        if moment.tick.is_multiple_of(every) {
             errors.push([norm(moment.position_error()), norm(moment.attitude_error())]);
         }
     })?;
@@ -245,10 +245,10 @@ impl Recorder {
         if let Some((observer, _)) = &mut self.small_angle {
             observer.tick(moment);
         }
-        if self.keep == Keep::All && moment.tick % self.every == 0 {
+        if self.keep == Keep::All && moment.tick.is_multiple_of(self.every) {
             self.samples.push(Sample { moment: *moment, belief, yardstick: [f64::NAN; 2] });
         }
-        if moment.tick % self.errors_every == 0 {
+        if moment.tick.is_multiple_of(self.errors_every) {
             let estimates = belief.parameters.map(|parameter| parameter.map(|p| f64::from(p.value)));
             self.errors.push(Errors::of(moment.t, percent(moment, estimates)));
             if let Some((observer, errors)) = &mut self.small_angle {

@@ -55,7 +55,7 @@ impl SmallAngle {
 
     /// Looks at one tick.
     pub fn tick(&mut self, moment: &Moment) {
-        if moment.tick % self.substeps == 0 {
+        if moment.tick.is_multiple_of(self.substeps) {
             let angles = moment.attitude.map(|attitude| self.followed(attitude.euler()));
             let measured = angles.map_or([None; 3], |angles| narrow(angles).map(Some));
             // Every measurement instant is a multiple of the substeps.
