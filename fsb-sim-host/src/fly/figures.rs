@@ -65,9 +65,9 @@ fn errors(flight: &Flight) -> Chart {
             ..Panel::new("t [s]", "error [%]", series)
         }
     };
-    let mut panels = vec![panel("on body angles, with the gyroscopic term", &flight.errors, 0..4)];
+    let mut panels = vec![panel("body angles, gyroscopic term", &flight.errors, 0..4)];
     if let Some(errors) = &flight.small_angle {
-        panels.push(panel("the paper's small-angle model on the same flight", errors, 1..4));
+        panels.push(panel("the paper's small angles, same flight", errors, 1..4));
     }
     let caption = "Magnitude of the errors in percent of the truth at the time.";
     Chart { columns: 2, ..Chart::new("Errors of the parameters", caption, panels) }

@@ -10,7 +10,7 @@ use crate::report::scene::{Line3, Scene};
 /// Sides of the circle that stands for a rotor.
 const SIDES: usize = 18;
 /// Vehicles drawn, at most.
-const VEHICLES: usize = 12;
+const VEHICLES: usize = 7;
 
 /// The path wanted, the path flown, and the vehicle at some instants.
 pub fn scene(scenario: &Scenario, samples: &[Sample]) -> Scene {
@@ -25,7 +25,7 @@ pub fn scene(scenario: &Scenario, samples: &[Sample]) -> Scene {
     if let Ok(vehicle) = Hexarotor::new(&scenario.plant) {
         let axes = vehicle.allocator().frame().axes();
         let arm = larger * scenario.plant.frame.arm;
-        for sample in apart(samples, 2.2 * arm) {
+        for sample in apart(samples, 3.0 * arm) {
             lines.extend(drawn(axes, arm, sample.moment.truth.position, &sample.moment.truth.attitude));
         }
     }

@@ -156,7 +156,10 @@ impl Scene {
             // An axis that points at the eye has no place for its name.
             if (x - ox).hypot(y - oy) > 12.0 || scale.is_some() {
                 let data = scale.map_or_else(String::new, |_| format!(" data-p=\"{} {} {}\"", end[0], end[1], end[2]));
-                let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"#333\"{data}>{name}</text>");
+                // Names that would leave a small view on its right end there.
+                let (anchor, y) =
+                    if scale.is_none() && x > cx { (" text-anchor=\"end\"", y + 14.0) } else { ("", y - 4.0) };
+                let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"#333\"{anchor}{data}>{name}</text>");
             }
         }
         out.push_str("</g>\n");
