@@ -2,3 +2,5 @@
 
 pub mod analytic;
 pub mod flight;
+pub mod rigid_body;
+pub mod six_axes;

@@ -72,6 +72,26 @@ pub struct Counters {
     pub rejected_inputs: u32,
 }
 
+/// What goes with the identifier from outside needs of its last step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct IdentifierView<const N: usize> {
+    /// Steps so far; begins anew with the identification.
+    pub blocks: u32,
+    /// g\[n-1\], the weight of S.
+    pub weight: f32,
+    /// c = 1 - e^(-λT)
+    pub c: f32,
+    pub scale: f32,
+    /// 1/M
+    pub per_length: f32,
+    /// ẑ0, scaled.
+    pub z0: [f32; N],
+    /// Whether the step has been added to the sums.
+    pub counts: [bool; N],
+    /// Σ ω ẑ0 of the axis's parameter.
+    pub denominators: [f32; N],
+}
+
 /// The identifier's inner signals in physical units: for logs and tests, not for control.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -203,6 +203,12 @@ impl ParameterState {
         if self.credible { Some(self.value) } else { None }
     }
 
+    /// The newest quotient, where it is in range and known to four times what would make it valid.
+    pub fn rough(&self) -> Option<f32> {
+        let limit = 16.0 * self.rule.relative_variance * (self.value * self.value);
+        if self.credible && self.variance <= limit { Some(self.value) } else { None }
+    }
+
     /// The parameter, where it is valid or held.
     pub fn valid(&self) -> Option<Parameter> {
         match self.status {

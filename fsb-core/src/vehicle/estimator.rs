@@ -7,11 +7,12 @@ use super::design;
 use super::gyroscopic;
 use super::measured::{Attitude, Measured, Wrench};
 use super::output::{Events, Group, Identified, VehicleCounters, VehicleModel};
+use super::retroactive::Retroactive;
 use crate::attitude::{AttitudeError, BodyAngles};
 use crate::error::ConfigError;
 use crate::estimator::{AxisState, Estimator};
-use crate::moments::InputMoments;
-use crate::readout::{Parameter, ParameterStatus};
+use crate::moments::{InputMoments, Substep};
+use crate::readout::{Memory, Parameter, ParameterStatus};
 
 /// Mass, moments of inertia and state of a vehicle whose position and attitude are measured.
 ///
@@ -45,6 +46,8 @@ pub struct VehicleEstimator<const D: usize> {
     force_limit: f32,
     torque_limit: f32,
     last: Wrench,
+    /// Where the sums do not fade.
+    retroactive: Option<Retroactive>,
     begun: bool,
     counters: VehicleCounters,
 }
@@ -74,6 +77,10 @@ impl<const D: usize> VehicleEstimator<D> {
             force_limit: config.translation.input_limit as f32,
             torque_limit: config.rotation.input_limit as f32,
             last: Wrench::default(),
+            retroactive: match config.rotation.memory {
+                Memory::Infinite => Some(Retroactive::new(Substep::new(config.rotation.substeps)?)),
+                Memory::Fading { .. } => None,
+            },
             begun: false,
             counters: VehicleCounters::default(),
         })
@@ -117,7 +124,10 @@ impl<const D: usize> VehicleEstimator<D> {
         self.actual = Some(then);
         let mut torque = self.actuators.torque(&course);
         if let (Some(rates), Some(k)) = (rates(&self.rotation.states()), self.reciprocals()) {
-            add_gyroscopic(&mut torque, &rates, &k, 0.5 * self.period);
+            let Gyroscopic { products, differences } = Gyroscopic::add(&mut torque, &rates, &k, 0.5 * self.period);
+            if let Some(retroactive) = &mut self.retroactive {
+                retroactive.hold(&products, &differences);
+            }
         }
         self.rotation.apply_moments(&torque);
         course
@@ -130,6 +140,7 @@ impl<const D: usize> VehicleEstimator<D> {
             Some(Err(AttitudeError::TurnTooLarge)) => {
                 events.attitude_lost = true;
                 self.rotation.restart();
+                self.begin_rotation();
                 Some(self.angles.angles())
             }
             Some(Err(_)) => {
@@ -147,6 +158,23 @@ impl<const D: usize> VehicleEstimator<D> {
         if self.rotation.is_due() {
             // In step, as it is due.
             let _ = self.rotation.measure(&each(angles));
+            self.look_back();
+        }
+    }
+
+    /// The gyroscopic moment so far, with what is now known of the moments of inertia.
+    fn look_back(&mut self) {
+        let Some(retroactive) = &mut self.retroactive else { return };
+        let (valid, mut k) = (self.rotation.parameters(), self.rotation.prediction_parameters());
+        for ((k, valid), rough) in k.iter_mut().zip(valid).zip(self.rotation.rough_parameters()) {
+            *k = valid.map(|k| k.value).or(rough).or(*k);
+        }
+        let Some(k) = all(k) else { return };
+        let differences = gyroscopic::differences(&k.map(|k| 1.0 / k));
+        if let Some(shifts) = retroactive.measured(&self.rotation.identifier_view(), &differences) {
+            for (axis, shift) in shifts.iter().enumerate() {
+                self.rotation.shift_input(axis, shift.input, shift.denominator);
+            }
         }
     }
 
@@ -219,7 +247,17 @@ impl<const D: usize> VehicleEstimator<D> {
     pub fn reinitialise(&mut self, group: Group) {
         match group {
             Group::Translation => self.translation.reinitialise_identifier(),
-            Group::Rotation => self.rotation.reinitialise_identifier(),
+            Group::Rotation => {
+                self.rotation.reinitialise_identifier();
+                self.begin_rotation();
+            }
+        }
+    }
+
+    /// What goes with the identification of the moments of inertia begins anew with it.
+    fn begin_rotation(&mut self) {
+        if let Some(retroactive) = &mut self.retroactive {
+            retroactive.reset();
         }
     }
 
@@ -227,6 +265,7 @@ impl<const D: usize> VehicleEstimator<D> {
     pub fn reset(&mut self) {
         self.translation.reset();
         self.rotation.reset();
+        self.begin_rotation();
         self.angles = BodyAngles::default();
         self.wrenches.clear();
         self.forces.clear();
@@ -252,13 +291,24 @@ impl<const D: usize> VehicleEstimator<D> {
     }
 }
 
-/// Adds τ_g, held at its value in the middle of the period.
-pub(super) fn add_gyroscopic(torque: &mut [InputMoments; 3], rates: &[f32; 3], k: &[f32; 3], half_period: f32) {
-    let inertia = k.map(|k| 1.0 / k);
-    let own = gyroscopic::in_the_middle(&inertia, k, rates, &torque.map(|t| t.j1), half_period);
-    for (moment, f) in torque.iter_mut().zip(own) {
-        moment.j1 += f;
-        moment.j2 += 0.5 * f;
+/// ω_j ω_k and γ of a period.
+pub(super) struct Gyroscopic {
+    products: [f32; 3],
+    differences: [f32; 3],
+}
+
+impl Gyroscopic {
+    /// Adds τ_g to the torque, held at its value in the middle of the period.
+    pub fn add(torque: &mut [InputMoments; 3], rates: &[f32; 3], k: &[f32; 3], half_period: f32) -> Self {
+        let differences = gyroscopic::differences(&k.map(|k| 1.0 / k));
+        let mean = torque.map(|t| t.j1);
+        let products = gyroscopic::products_in_the_middle(&differences, k, rates, &mean, half_period);
+        for (moment, (product, gamma)) in torque.iter_mut().zip(products.iter().zip(&differences)) {
+            let f = gamma * product;
+            moment.j1 += f;
+            moment.j2 += 0.5 * f;
+        }
+        Self { products, differences }
     }
 }
 

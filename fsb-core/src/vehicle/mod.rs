@@ -36,6 +36,7 @@
 //! | `state` | the state now: predicted over what measurements are late |
 //! | `actuators` | first-order lag; moments of the force turned into the world frame |
 //! | `gyroscopic` | ω × I ω as an input |
+//! | `retroactive` | the same with moments of inertia that were not known at the time |
 //! | `delay` | inputs waiting for a measurement that comes late |
 
 mod actuators;
@@ -46,6 +47,7 @@ mod estimator;
 mod gyroscopic;
 mod measured;
 mod output;
+mod retroactive;
 mod state;
 
 pub use config::{ChangeRule, Expected, GroupConfig, VehicleConfig};
