@@ -2,5 +2,6 @@
 
 pub mod analytic;
 pub mod flight;
+pub mod fly;
 pub mod rigid_body;
 pub mod six_axes;
