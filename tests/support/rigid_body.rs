@@ -2,7 +2,7 @@
 
 use fsb_core::vehicle::{Attitude, Wrench};
 use fsb_sim_host::hexarotor::Quaternion;
-use fsb_sim_host::hexarotor::vector::{Vector, add_scaled, by_components, cross, difference, scaled, sum};
+use fsb_sim_host::hexarotor::vector::{Matrix, Vector, add_scaled, by_components, cross, difference, scaled, sum};
 
 /// The body and where it is.
 #[derive(Clone, Copy, Debug)]
@@ -113,4 +113,11 @@ fn moved(x: &Derivative, h: f64, slope: &Derivative) -> Derivative {
 /// R by rows, as an estimator takes it.
 pub fn matrix(attitude: &Quaternion) -> Attitude {
     Attitude::Matrix(attitude.matrix().map(|row| row.map(|x| x as f32)))
+}
+
+/// Of R, for turns of less than 120°.
+pub fn quaternion(r: &Matrix) -> Quaternion {
+    let w = (1.0 + r[0][0] + r[1][1] + r[2][2]).sqrt() / 2.0;
+    let axis = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]].map(|x| x / (4.0 * w));
+    Quaternion([w, axis[0], axis[1], axis[2]]).normalised()
 }

@@ -1,7 +1,7 @@
 //! A rigid body flown on its true state, and what its sensors say.
 
-use crate::rigid_body::{GRAVITY, RigidBody, matrix};
-use fsb_core::vehicle::{Measured, Wrench};
+use crate::rigid_body::{GRAVITY, RigidBody, matrix, quaternion};
+use fsb_core::vehicle::{Measured, VehicleState, Wrench};
 use fsb_sim_host::hexarotor::Quaternion;
 use fsb_sim_host::hexarotor::vector::{Vector, add_scaled, by_components, cross, difference, scaled, sum};
 use rand::{RngExt, SeedableRng};
@@ -89,8 +89,12 @@ impl Flight {
 
     /// (11) and (13) on the true state, with what the pilot believes of mass and inertia.
     pub fn pilot(&self) -> Wrench {
+        self.pilot_on(&self.body)
+    }
+
+    /// The same on what `body` is taken for.
+    pub fn pilot_on(&self, body: &RigidBody) -> Wrench {
         let t = self.t();
-        let body = &self.body;
         let away = difference(body.position, sum(self.start, self.course.path_at(t)));
         let wanted = sum(add_scaled(scaled(-4.0, away), -4.0, body.velocity), [0.0, 0.0, GRAVITY]);
         let force = body.attitude.rotate_back(scaled(self.believed.mass, wanted));
@@ -104,6 +108,18 @@ impl Flight {
         let inertia = self.believed.inertia;
         let torque = sum(by_components(inertia, alpha), cross(body.rates, by_components(inertia, body.rates)));
         Wrench { force: force.map(|x| x as f32), torque: torque.map(|x| x as f32) }
+    }
+
+    /// The body as the estimator sees it: the truth where it says nothing.
+    pub fn seen(&self, state: &VehicleState) -> RigidBody {
+        let wide = |v: Option<[f32; 3]>, truth: Vector| v.map_or(truth, |v| v.map(f64::from));
+        RigidBody {
+            position: wide(state.position, self.body.position),
+            velocity: wide(state.velocity, self.body.velocity),
+            rates: wide(state.rates, self.body.rates),
+            attitude: state.attitude.map_or(self.body.attitude, |r| quaternion(&r.map(|row| row.map(f64::from)))),
+            ..self.body
+        }
     }
 
     /// A control period under `wrench`.

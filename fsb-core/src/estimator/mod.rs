@@ -34,8 +34,8 @@ mod tests;
 
 pub use config::EstimatorConfig;
 pub use design::EstimatorDesign;
-pub(crate) use output::IdentifierView;
 pub use output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
+pub(crate) use output::{IdentifierView, InnovationView};
 
 use crate::error::ConfigError;
 use crate::readout::ParameterState;

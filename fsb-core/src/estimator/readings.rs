@@ -2,7 +2,7 @@
 
 use super::Estimator;
 use super::axis::Source;
-use super::output::{AxisDiagnostics, AxisState, Counters, IdentifierView, StateStatus};
+use super::output::{AxisDiagnostics, AxisState, Counters, IdentifierView, InnovationView, StateStatus};
 use super::parts::Frame;
 use crate::moments::InputMoments;
 use crate::observer::{Model, NoiseGain};
@@ -73,6 +73,23 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             }
         }
         states
+    }
+
+    /// The observer's last step.
+    pub(crate) fn innovation_view(&self) -> InnovationView<N> {
+        let Frame { common, progress, axes } = &self.frame;
+        let gains = &progress.observer.gains;
+        InnovationView {
+            innovations: axes.each_ref().map(|axis| axis.observer.innovation()),
+            moments: axes.each_ref().map(|axis| axis.moments),
+            // Means over M samples have an M-th of the variance.
+            noise_variances: axes.each_ref().map(|axis| {
+                axis.noise.is_known().then(|| axis.noise.measurement_variance() * common.block_length as f32)
+            }),
+            measured: progress.all_measured,
+            m1: gains.m1(),
+            t_l2: gains.t_l2(),
+        }
     }
 
     /// The identifier's last step.

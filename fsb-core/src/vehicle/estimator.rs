@@ -1,7 +1,8 @@
 //! The update, once per control period.
 
 use super::actuators::{Actuators, Course};
-use super::config::VehicleConfig;
+use super::change::Detector;
+use super::config::{GroupConfig, VehicleConfig};
 use super::delay::Delay;
 use super::design;
 use super::gyroscopic;
@@ -48,6 +49,8 @@ pub struct VehicleEstimator<const D: usize> {
     last: Wrench,
     /// Where the sums do not fade.
     retroactive: Option<Retroactive>,
+    translation_change: Option<Detector>,
+    rotation_change: Option<Detector>,
     begun: bool,
     counters: VehicleCounters,
 }
@@ -81,6 +84,8 @@ impl<const D: usize> VehicleEstimator<D> {
                 Memory::Infinite => Some(Retroactive::new(Substep::new(config.rotation.substeps)?)),
                 Memory::Fading { .. } => None,
             },
+            translation_change: detector(config, &config.translation, true)?,
+            rotation_change: detector(config, &config.rotation, false)?,
             begun: false,
             counters: VehicleCounters::default(),
         })
@@ -159,6 +164,7 @@ impl<const D: usize> VehicleEstimator<D> {
             // In step, as it is due.
             let _ = self.rotation.measure(&each(angles));
             self.look_back();
+            events.inertia_changed = self.inertia_has_changed();
         }
     }
 
@@ -184,9 +190,29 @@ impl<const D: usize> VehicleEstimator<D> {
             // In step, as it is due.
             let _ = self.translation.measure(&each(position));
             events.position_rejected = self.translation.counters().rejected_measurements != before;
+            events.mass_changed = self.mass_has_changed();
         } else {
             events.position_out_of_step = position.is_some();
         }
+    }
+
+    fn mass_has_changed(&mut self) -> bool {
+        let Some(detector) = &mut self.translation_change else { return false };
+        let [k] = identified(&self.translation);
+        let changed = detector.observe(&self.translation.innovation_view(), &[k, None, None]);
+        if changed {
+            self.reinitialise(Group::Translation);
+        }
+        changed
+    }
+
+    fn inertia_has_changed(&mut self) -> bool {
+        let Some(detector) = &mut self.rotation_change else { return false };
+        let changed = detector.observe(&self.rotation.innovation_view(), &identified(&self.rotation));
+        if changed {
+            self.reinitialise(Group::Rotation);
+        }
+        changed
     }
 
     /// Force and torque, each within its limit or else the one before.
@@ -246,18 +272,31 @@ impl<const D: usize> VehicleEstimator<D> {
     /// until the new value is valid.
     pub fn reinitialise(&mut self, group: Group) {
         match group {
-            Group::Translation => self.translation.reinitialise_identifier(),
+            Group::Translation => {
+                self.translation.reinitialise_identifier();
+                if let Some(detector) = &mut self.translation_change {
+                    detector.reset();
+                }
+            }
             Group::Rotation => {
                 self.rotation.reinitialise_identifier();
-                self.begin_rotation();
+                if let Some(retroactive) = &mut self.retroactive {
+                    retroactive.reset();
+                }
+                if let Some(detector) = &mut self.rotation_change {
+                    detector.reset();
+                }
             }
         }
     }
 
-    /// What goes with the identification of the moments of inertia begins anew with it.
+    /// What goes with the rotation begins anew with it.
     fn begin_rotation(&mut self) {
         if let Some(retroactive) = &mut self.retroactive {
             retroactive.reset();
+        }
+        if let Some(detector) = &mut self.rotation_change {
+            detector.restart();
         }
     }
 
@@ -266,6 +305,9 @@ impl<const D: usize> VehicleEstimator<D> {
         self.translation.reset();
         self.rotation.reset();
         self.begin_rotation();
+        if let Some(detector) = &mut self.translation_change {
+            detector.restart();
+        }
         self.angles = BodyAngles::default();
         self.wrenches.clear();
         self.forces.clear();
@@ -322,6 +364,23 @@ pub(super) fn rates(states: &[Option<AxisState>; 3]) -> Option<[f32; 3]> {
 
 pub(super) fn difference([ax, ay, az]: &[f32; 3], [bx, by, bz]: &[f32; 3]) -> [f32; 3] {
     [ax - bx, ay - by, az - bz]
+}
+
+/// The detector of a group, where one is configured.
+fn detector(config: &VehicleConfig, group: &GroupConfig, pooled: bool) -> Result<Option<Detector>, ConfigError> {
+    let period = config.period * f64::from(group.substeps);
+    config.change.as_ref().map(|rule| Detector::new(rule, group.observer.lambda, period, pooled)).transpose()
+}
+
+/// k of the parameters that are valid now, not held.
+fn identified<const P: usize>(estimator: &Estimator<3, P>) -> [Option<f32>; P] {
+    let mut values = estimator.parameters().map(|k| k.map(|k| k.value));
+    for (value, status) in values.iter_mut().zip(estimator.parameter_status()) {
+        if status != ParameterStatus::Valid {
+            *value = None;
+        }
+    }
+    values
 }
 
 /// All three, or nothing.

@@ -37,9 +37,11 @@
 //! | `actuators` | first-order lag; moments of the force turned into the world frame |
 //! | `gyroscopic` | ω × I ω as an input |
 //! | `retroactive` | the same with moments of inertia that were not known at the time |
+//! | `change` | whether a parameter has changed |
 //! | `delay` | inputs waiting for a measurement that comes late |
 
 mod actuators;
+mod change;
 mod config;
 mod delay;
 mod design;
