@@ -12,7 +12,16 @@ pub fn scenario(name: &str, overrides: &[&str]) -> Scenario {
 /// It flown with `seed`, the yardstick beside it; nothing may diverge.
 pub fn fly(name: &str, overrides: &[&str], seed: u64) -> Flight {
     let flight = record(&scenario(name, overrides), seed, Keep::All).unwrap();
-    println!("{name} {overrides:?}, seed {seed}: {:?}, {:?}", flight.tracking, flight.state);
+    let of = flight.tracking;
+    println!(
+        "{name} {overrides:?}, seed {seed}: rms {:.2} mm (yardstick {:.2}), largest {:.1} mm, {:.2} mrad ({:.2}), velocity {:.1} mm/s",
+        1e3 * of.position_rms,
+        1e3 * of.yardstick_position_rms,
+        1e3 * of.position_error_max,
+        1e3 * of.attitude_rms,
+        1e3 * of.yardstick_attitude_rms,
+        1e3 * flight.state.velocity_rms
+    );
     assert_eq!(flight.diverged, None, "{name}");
     flight
 }

@@ -31,13 +31,13 @@ fn a_pickup_is_noticed() {
     }
 }
 
-/// Ten minutes of hover and of the spiral, and the moving flights as built in with the detector on: no alarm.
+/// An hour of hover, twenty minutes of the spiral, and the moving flights as built in with the detector on: no alarm.
 #[test]
 fn no_false_alarm() {
     let detector = "estimator.change={ relative = 0.15, sigmas = 6.0, hold_off = 2.0 }";
     for (name, duration) in [
-        ("hover", 600.0),
-        ("spiral", 600.0),
+        ("hover", 3600.0),
+        ("spiral", 1200.0),
         ("aggressive", 60.0),
         ("latency", 60.0),
         ("slow-position", 60.0),
@@ -46,7 +46,7 @@ fn no_false_alarm() {
         let duration = format!("duration={duration}");
         let flight = record(&scenario(name, &[&duration, detector]), 7, Keep::Numbers).unwrap();
         let alarms: Vec<_> = flight.events.iter().filter(|event| event.what.contains("change")).collect();
-        println!("{name}, {duration} s, seed 7: {:?}", flight.events);
+        println!("{name}, {duration} s, seed 7: {} events", flight.events.len());
         assert!(alarms.is_empty() && flight.diverged.is_none(), "{name}: {alarms:?}");
     }
 }
