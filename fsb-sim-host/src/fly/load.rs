@@ -125,6 +125,15 @@ mod tests {
         }
     }
 
+    /// So is the one in the README.
+    #[test]
+    fn the_example_of_the_readme_is_a_scenario() {
+        let readme = include_str!("../../README.md");
+        let text = readme.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+        let scenario: Scenario = toml::from_str(text).unwrap();
+        assert_eq!(scenario.check(), Ok(()));
+    }
+
     #[test]
     fn entries_are_overridden() {
         let plain = with(&[]).unwrap();
@@ -146,7 +155,8 @@ mod tests {
             ("wings=2", "unknown field `wings`"),
             ("plant.mass=heavy", "invalid type"),
             ("plant.mass=[1]", "invalid type"),
-            ("plant.mass.of=1", "single value"),
+            ("plant.max_step.of=1", "single value"),
+            ("plant.mass.of=1", "invalid type"),
             ("plant.inertia.3=1", "no element 3"),
             ("plant.mass", "KEY=VALUE"),
             ("=1", "no key"),

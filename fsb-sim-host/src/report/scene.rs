@@ -170,7 +170,7 @@ impl Scene {
 fn thinned(line: &Line3) -> Line3 {
     let every = line.points.len().div_ceil(POINTS).max(1);
     let mut points: Vec<Point3> = line.points.iter().step_by(every).copied().collect();
-    if line.points.len() % every != 1 {
+    if !line.points.len().saturating_sub(1).is_multiple_of(every) {
         points.extend(line.points.last());
     }
     points.retain(|p| p.iter().all(|value| value.is_finite()));
