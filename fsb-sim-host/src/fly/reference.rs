@@ -91,8 +91,8 @@ mod tests {
         for t in [0.0, 0.8, 2.9] {
             let [before, here, after] = [t - h, t, t + h].map(|t| Wanted::at(&references, t));
             let turn = before.attitude.inverse().then_in_body(&after.attitude).rotation_vector();
-            for i in 0..3 {
-                assert!((turn[i] / (2.0 * h) - here.rates[i]).abs() < 1e-6, "rate {i} at {t}");
+            for (i, turn) in turn.iter().enumerate() {
+                assert!((turn / (2.0 * h) - here.rates[i]).abs() < 1e-6, "rate {i} at {t}");
                 let acceleration = (after.rates[i] - before.rates[i]) / (2.0 * h);
                 assert!((acceleration - here.angular_acceleration[i]).abs() < 1e-6, "acceleration {i} at {t}");
             }
