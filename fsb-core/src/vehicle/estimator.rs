@@ -5,15 +5,16 @@ use super::change::Detector;
 use super::config::{GroupConfig, VehicleConfig};
 use super::delay::Delay;
 use super::design;
-use super::gyroscopic;
+use super::gyroscopic::{self, Gyroscopic};
 use super::measured::{Attitude, Measured, Wrench};
-use super::output::{Events, Group, Identified, VehicleCounters, VehicleModel};
+use super::output::{Events, VehicleCounters};
 use super::retroactive::Retroactive;
+use super::triple::{all, difference, each, positions, rates, within};
 use crate::attitude::{AttitudeError, BodyAngles};
 use crate::error::ConfigError;
-use crate::estimator::{AxisState, Estimator};
+use crate::estimator::Estimator;
 use crate::moments::{InputMoments, Substep};
-use crate::readout::{Memory, Parameter, ParameterStatus};
+use crate::readout::Memory;
 
 /// Mass, moments of inertia and state of a vehicle whose position and attitude are measured.
 ///
@@ -44,15 +45,16 @@ pub struct VehicleEstimator<const D: usize> {
     pub(super) period: f32,
     /// The attitude was measured in the last update.
     pub(super) attitude_measured: bool,
+    position_limit: f32,
     force_limit: f32,
     torque_limit: f32,
     last: Wrench,
     /// Where the sums do not fade.
-    retroactive: Option<Retroactive>,
-    translation_change: Option<Detector>,
-    rotation_change: Option<Detector>,
+    pub(super) retroactive: Option<Retroactive>,
+    pub(super) translation_change: Option<Detector>,
+    pub(super) rotation_change: Option<Detector>,
     begun: bool,
-    counters: VehicleCounters,
+    pub(super) counters: VehicleCounters,
 }
 
 impl<const D: usize> VehicleEstimator<D> {
@@ -77,6 +79,7 @@ impl<const D: usize> VehicleEstimator<D> {
             forces: Delay::new(latest - late),
             period: config.period as f32,
             attitude_measured: false,
+            position_limit: config.translation.measurement_limit as f32,
             force_limit: config.translation.input_limit as f32,
             torque_limit: config.rotation.input_limit as f32,
             last: Wrench::default(),
@@ -185,40 +188,20 @@ impl<const D: usize> VehicleEstimator<D> {
     }
 
     fn take_position(&mut self, position: Option<[f32; 3]>, events: &mut Events) {
+        // Where one coordinate is nonsense the others are not to be trusted.
+        let sound = position.filter(|position| within(position, self.position_limit));
+        events.position_rejected = position.is_some() && sound.is_none();
         if self.translation.is_due() {
-            let before = self.translation.counters().rejected_measurements;
             // In step, as it is due.
-            let _ = self.translation.measure(&each(position));
-            events.position_rejected = self.translation.counters().rejected_measurements != before;
+            let _ = self.translation.measure(&each(sound));
             events.mass_changed = self.mass_has_changed();
         } else {
-            events.position_out_of_step = position.is_some();
+            events.position_out_of_step = sound.is_some();
         }
-    }
-
-    fn mass_has_changed(&mut self) -> bool {
-        let Some(detector) = &mut self.translation_change else { return false };
-        let [k] = identified(&self.translation);
-        let changed = detector.observe(&self.translation.innovation_view(), &[k, None, None]);
-        if changed {
-            self.reinitialise(Group::Translation);
-        }
-        changed
-    }
-
-    fn inertia_has_changed(&mut self) -> bool {
-        let Some(detector) = &mut self.rotation_change else { return false };
-        let changed = detector.observe(&self.rotation.innovation_view(), &identified(&self.rotation));
-        if changed {
-            self.reinitialise(Group::Rotation);
-        }
-        changed
     }
 
     /// Force and torque, each within its limit or else the one before.
     fn checked(&mut self, applied: &Wrench, events: &mut Events) -> Wrench {
-        // Written so that NaN fails it.
-        let within = |values: &[f32; 3], limit: f32| values.iter().all(|x| x.abs() <= limit);
         if within(&applied.force, self.force_limit) {
             self.last.force = applied.force;
         } else {
@@ -230,74 +213,6 @@ impl<const D: usize> VehicleEstimator<D> {
             events.wrench_rejected = true;
         }
         self.last
-    }
-
-    /// 1/I that is predicted with, where all three are known.
-    pub(super) fn reciprocals(&self) -> Option<[f32; 3]> {
-        all(self.rotation.prediction_parameters())
-    }
-
-    /// m (kg), where it is valid or held.
-    pub fn mass(&self) -> Option<Identified> {
-        let [k] = self.translation.parameters();
-        k.map(inverse)
-    }
-
-    /// I_x, I_y, I_z (kg m²), where they are valid or held.
-    pub fn inertia(&self) -> [Option<Identified>; 3] {
-        self.rotation.parameters().map(|k| k.map(inverse))
-    }
-
-    /// Why the mass is valid or not.
-    pub fn mass_status(&self) -> ParameterStatus {
-        let [status] = self.translation.parameter_status();
-        status
-    }
-
-    /// Why the moments of inertia are valid or not.
-    pub fn inertia_status(&self) -> [ParameterStatus; 3] {
-        self.rotation.parameter_status()
-    }
-
-    /// What the state is predicted with, and what a controller may divide by.
-    pub fn model(&self) -> VehicleModel {
-        let [k] = self.translation.prediction_parameters();
-        VehicleModel {
-            mass: k.map(|k| 1.0 / k),
-            inertia: self.rotation.prediction_parameters().map(|k| k.map(|k| 1.0 / k)),
-        }
-    }
-
-    /// Identifies the parameters of a group anew, as after a change of load: what is known goes on being handed out and used
-    /// until the new value is valid.
-    pub fn reinitialise(&mut self, group: Group) {
-        match group {
-            Group::Translation => {
-                self.translation.reinitialise_identifier();
-                if let Some(detector) = &mut self.translation_change {
-                    detector.reset();
-                }
-            }
-            Group::Rotation => {
-                self.rotation.reinitialise_identifier();
-                if let Some(retroactive) = &mut self.retroactive {
-                    retroactive.reset();
-                }
-                if let Some(detector) = &mut self.rotation_change {
-                    detector.reset();
-                }
-            }
-        }
-    }
-
-    /// What goes with the rotation begins anew with it.
-    fn begin_rotation(&mut self) {
-        if let Some(retroactive) = &mut self.retroactive {
-            retroactive.reset();
-        }
-        if let Some(detector) = &mut self.rotation_change {
-            detector.restart();
-        }
     }
 
     /// Forgets everything but the configuration and the counters.
@@ -316,85 +231,10 @@ impl<const D: usize> VehicleEstimator<D> {
         self.attitude_measured = false;
         self.begun = false;
     }
-
-    /// The estimator of x, y, z: for its diagnostics.
-    pub const fn translation(&self) -> &Estimator<3, 1> {
-        &self.translation
-    }
-
-    /// The estimator of the body angles: for its diagnostics.
-    pub const fn rotation(&self) -> &Estimator<3, 3> {
-        &self.rotation
-    }
-
-    /// What has been rejected, lost or changed.
-    pub const fn counters(&self) -> VehicleCounters {
-        self.counters
-    }
-}
-
-/// ω_j ω_k and γ of a period.
-pub(super) struct Gyroscopic {
-    products: [f32; 3],
-    differences: [f32; 3],
-}
-
-impl Gyroscopic {
-    /// Adds τ_g to the torque, held at its value in the middle of the period.
-    pub fn add(torque: &mut [InputMoments; 3], rates: &[f32; 3], k: &[f32; 3], half_period: f32) -> Self {
-        let differences = gyroscopic::differences(&k.map(|k| 1.0 / k));
-        let mean = torque.map(|t| t.j1);
-        let products = gyroscopic::products_in_the_middle(&differences, k, rates, &mean, half_period);
-        for (moment, (product, gamma)) in torque.iter_mut().zip(products.iter().zip(&differences)) {
-            let f = gamma * product;
-            moment.j1 += f;
-            moment.j2 += 0.5 * f;
-        }
-        Self { products, differences }
-    }
-}
-
-pub(super) fn positions(states: &[Option<AxisState>; 3]) -> Option<[f32; 3]> {
-    all(states.map(|state| state.map(|s| s.position)))
-}
-
-pub(super) fn rates(states: &[Option<AxisState>; 3]) -> Option<[f32; 3]> {
-    all(states.map(|state| state.map(|s| s.velocity)))
-}
-
-pub(super) fn difference([ax, ay, az]: &[f32; 3], [bx, by, bz]: &[f32; 3]) -> [f32; 3] {
-    [ax - bx, ay - by, az - bz]
 }
 
 /// The detector of a group, where one is configured.
 fn detector(config: &VehicleConfig, group: &GroupConfig, pooled: bool) -> Result<Option<Detector>, ConfigError> {
     let period = config.period * f64::from(group.substeps);
     config.change.as_ref().map(|rule| Detector::new(rule, group.observer.lambda, period, pooled)).transpose()
-}
-
-/// k of the parameters that are valid now, not held.
-fn identified<const P: usize>(estimator: &Estimator<3, P>) -> [Option<f32>; P] {
-    let mut values = estimator.parameters().map(|k| k.map(|k| k.value));
-    for (value, status) in values.iter_mut().zip(estimator.parameter_status()) {
-        if status != ParameterStatus::Valid {
-            *value = None;
-        }
-    }
-    values
-}
-
-/// All three, or nothing.
-fn all([x, y, z]: [Option<f32>; 3]) -> Option<[f32; 3]> {
-    Some([x?, y?, z?])
-}
-
-fn each(values: Option<[f32; 3]>) -> [Option<f32>; 3] {
-    values.map_or([None; 3], |values| values.map(Some))
-}
-
-/// 1/k with var(k)/k⁴.
-fn inverse(k: Parameter) -> Identified {
-    let value = 1.0 / k.value;
-    let square = value * value;
-    Identified { value, variance: (k.variance * square) * square }
 }

@@ -33,12 +33,15 @@
 //! | `measured` | what an update takes |
 //! | `output` | what is handed out |
 //! | `estimator` | the update |
+//! | `readings` | parameters and counters handed out |
 //! | `state` | the state now: predicted over what measurements are late |
 //! | `actuators` | first-order lag; moments of the force turned into the world frame |
 //! | `gyroscopic` | ω × I ω as an input |
 //! | `retroactive` | the same with moments of inertia that were not known at the time |
 //! | `change` | whether a parameter has changed |
+//! | `reinitialise` | parameters identified anew |
 //! | `delay` | inputs waiting for a measurement that comes late |
+//! | `triple` | three numbers, one for each axis of a group |
 
 mod actuators;
 mod change;
@@ -49,8 +52,11 @@ mod estimator;
 mod gyroscopic;
 mod measured;
 mod output;
+mod readings;
+mod reinitialise;
 mod retroactive;
 mod state;
+mod triple;
 
 pub use config::{ChangeRule, Expected, GroupConfig, VehicleConfig};
 pub use estimator::VehicleEstimator;

@@ -1,7 +1,9 @@
 //! The state now: that of the estimators, and what was applied since the measurements they know were true.
 
-use super::estimator::{Gyroscopic, VehicleEstimator, difference, positions, rates};
+use super::estimator::VehicleEstimator;
+use super::gyroscopic::Gyroscopic;
 use super::output::VehicleState;
+use super::triple::{difference, positions, rates};
 use crate::attitude::rotation::{self, Matrix};
 use crate::estimator::AxisState;
 use crate::moments::InputMoments;

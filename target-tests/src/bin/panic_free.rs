@@ -8,7 +8,9 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use fsb_core::control::{Reference, TrackingConfig, TrackingController, to_body};
 use fsb_core::estimator::AxisState;
+use fsb_core::moments::InputMoments;
 use fsb_core::readout::{Memory, ParameterRule, Readout};
+use fsb_core::vehicle::{Attitude, ChangeRule, Expected, Group, Measured, VehicleConfig, VehicleEstimator, Wrench};
 use fsb_core::{Estimator, EstimatorConfig, EstimatorDesign, Tuning};
 use fsb_firmware::attitude_from_quaternion;
 use panic_never as _;
@@ -21,6 +23,8 @@ fn main() -> ! {
         estimator::<3, 1>();
         estimator::<3, 3>();
         estimator::<6, 6>();
+        vehicle::<1>();
+        vehicle::<16>();
         controller();
         whole_loop();
         #[cfg(feature = "demonstrate")]
@@ -63,6 +67,10 @@ fn estimator<const N: usize, const P: usize>() {
                     estimator = black_box(new);
                 }
             }
+            14 => estimator.apply_moments(&black_box([InputMoments::ZERO; N])),
+            15 => estimator.reinitialise_identifier(),
+            16 => estimator.restart(),
+            17 => drop(black_box((estimator.prediction_parameters(), estimator.is_due()))),
             _ => return,
         }
     }
@@ -86,6 +94,43 @@ fn config<const N: usize, const P: usize>() -> EstimatorConfig<N, P> {
     config.position_limit = black_box(1e5);
     config.input_limit = black_box(1e5);
     config
+}
+
+fn vehicle<const D: usize>() {
+    let mut config = VehicleConfig::new(black_box(1e-3));
+    for group in [&mut config.translation, &mut config.rotation] {
+        group.substeps = black_box(1);
+        group.latency = black_box(0);
+        group.block = black_box(1);
+        group.memory = if black_box(true) { Memory::Infinite } else { Memory::Fading { tau: black_box(1.0) } };
+    }
+    config.gravity = black_box(9.81);
+    config.mass = black_box(Expected::about(1.0));
+    config.inertia = black_box([Expected::within(0.01, 0.1); 3]);
+    config.actuator_lag = black_box(None);
+    config.change = black_box(Some(ChangeRule::default()));
+    let Ok(vehicle) = VehicleEstimator::<D>::new(&config) else { return };
+    let mut vehicle = black_box(vehicle);
+    loop {
+        match black_box(0_u32) {
+            0 => {
+                let attitude = match black_box(0_u32) {
+                    0 => Some(Attitude::Matrix(black_box([[0.0; 3]; 3]))),
+                    1 => Some(Attitude::Quaternion(black_box([1.0, 0.0, 0.0, 0.0]))),
+                    _ => None,
+                };
+                let measured = Measured { position: black_box(Some([0.0; 3])), attitude };
+                drop(black_box(vehicle.update(&measured, &black_box(Wrench::default()))));
+            }
+            1 => drop(black_box(vehicle.state())),
+            2 => drop(black_box((vehicle.mass(), vehicle.mass_status(), vehicle.model(), vehicle.counters()))),
+            3 => drop(black_box((vehicle.inertia(), vehicle.inertia_status()))),
+            4 => vehicle.reinitialise(if black_box(true) { Group::Translation } else { Group::Rotation }),
+            5 => vehicle.reset(),
+            6 => drop(black_box((vehicle.translation().states(), vehicle.rotation().states()))),
+            _ => return,
+        }
+    }
 }
 
 fn controller() {
