@@ -10,7 +10,7 @@ const LARGE: f64 = 460.0;
 const SMALL: f64 = 270.0;
 /// Room around a view.
 const MARGIN: f64 = 30.0;
-/// Azimuth and elevation from which the large view is seen at first [rad].
+/// Azimuth and elevation from which the large view is seen at first (rad).
 const OBLIQUE: (f64, f64) = (-1.0, 0.45);
 /// Points kept of a line, at most.
 const POINTS: usize = 700;
@@ -36,11 +36,11 @@ pub struct Line3 {
     pub role: Role,
     /// Width in pixels.
     pub width: f64,
-    /// Where it goes [m].
+    /// Where it goes (m).
     pub points: Vec<Point3>,
 }
 
-/// From where a view looks: at `azimuth` from x towards y, at `elevation` above the ground [rad].
+/// From where a view looks: at `azimuth` from x towards y, at `elevation` above the ground (rad).
 #[derive(Clone, Copy)]
 struct View {
     right: Point3,
