@@ -92,6 +92,7 @@ pub(crate) struct CheckedRule {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ParameterState {
     pub ratio: Ratio,
+    /// The newest quotient and its variance; while it is held, the value from before.
     value: f32,
     variance: f32,
     pub status: ParameterStatus,
@@ -104,8 +105,8 @@ pub(crate) struct ParameterState {
     stepped: u8,
     /// Σ ω ẑ0 over the coarse steps.
     information: Accumulator,
-    /// What stands in until the quotient is valid.
-    held: Option<Parameter>,
+    /// The newest quotient and its variance while the value from before is held.
+    fresh: Parameter,
     pub nominal: Option<f32>,
     rule: CheckedRule,
 }
@@ -124,7 +125,7 @@ impl ParameterState {
             members,
             stepped: 0,
             information: Accumulator::ZERO,
-            held: None,
+            fresh: Parameter { value: 0.0, variance: f32::MAX },
             nominal,
             rule,
         }
@@ -139,15 +140,20 @@ impl ParameterState {
     pub fn hold(&mut self, members: u8) {
         let held = self.valid();
         self.restart(members);
-        if held.is_some() {
+        if let Some(Parameter { value, variance }) = held {
             self.status = ParameterStatus::Held;
-            self.held = held;
+            (self.value, self.variance) = (value, variance);
         }
+    }
+
+    #[inline(always)]
+    fn is_held(&self) -> bool {
+        self.status == ParameterStatus::Held
     }
 
     /// The value that stands in for one that is not valid.
     pub fn held_value(&self) -> Option<f32> {
-        self.held.map(|parameter| parameter.value)
+        if self.is_held() { Some(self.value) } else { None }
     }
 
     /// One of its axes no longer takes part.
@@ -167,22 +173,21 @@ impl ParameterState {
 
     /// The newest quotient, where it is in range and its standard deviation is below its value.
     pub fn credible(&self) -> Option<f32> {
-        if self.credible { Some(self.value) } else { None }
+        if self.credible { Some(self.newest().value) } else { None }
     }
 
     /// The newest quotient, where it is in range and known to four times what would make it valid.
     pub fn rough(&self) -> Option<f32> {
-        let limit = 16.0 * self.rule.relative_variance * (self.value * self.value);
-        if self.credible && self.variance <= limit { Some(self.value) } else { None }
+        let Parameter { value, variance } = self.newest();
+        let limit = 16.0 * self.rule.relative_variance * (value * value);
+        if self.credible && variance <= limit { Some(value) } else { None }
     }
 
     /// The parameter, where it is valid or held.
     pub fn valid(&self) -> Option<Parameter> {
-        match self.status {
-            ParameterStatus::Valid => Some(Parameter { value: self.value, variance: self.variance }),
-            ParameterStatus::Held => self.held,
-            _ => None,
-        }
+        // The two come last: one comparison.
+        let usable = self.status as u8 >= ParameterStatus::Valid as u8;
+        if usable { Some(self.newest_or_held()) } else { None }
     }
 
     /// The value, where it is valid.
@@ -204,11 +209,35 @@ impl ParameterState {
         {
             let variance = (variance / information) * (scale2 / information);
             // Rounding can take a sum of next to nothing below zero.
-            self.variance = if variance >= 0.0 { variance } else { f32::MAX };
+            let variance = if variance >= 0.0 { variance } else { f32::MAX };
+            *(if self.is_held() { &mut self.fresh.variance } else { &mut self.variance }) = variance;
         }
     }
 
-    /// The newest quotient; zero before there is any.
+    /// [`read`](Self::read) where the value from before is held, which it is until the new one is valid.
+    #[inline(never)]
+    fn read_beside_held(&mut self, settled: bool) {
+        let held = self.newest_or_held();
+        (self.value, self.variance) = (self.fresh.value, self.fresh.variance);
+        self.status = ParameterStatus::Settling;
+        self.read(settled);
+        if self.status != ParameterStatus::Valid {
+            self.fresh = self.newest_or_held();
+            (self.value, self.variance) = (held.value, held.variance);
+            self.status = ParameterStatus::Held;
+        }
+    }
+
+    fn newest_or_held(&self) -> Parameter {
+        Parameter { value: self.value, variance: self.variance }
+    }
+
+    /// The newest quotient and its variance, whatever is handed out.
+    fn newest(&self) -> Parameter {
+        if self.is_held() { self.fresh } else { self.newest_or_held() }
+    }
+
+    /// The newest quotient of a parameter that is not held; zero before there is any.
     #[inline(always)]
     pub const fn newest_value(&self) -> f32 {
         self.value
@@ -231,6 +260,10 @@ impl ParameterState {
 
     /// The quotient from the sums as they are, and its status.
     pub fn read(&mut self, settled: bool) {
+        if self.is_held() {
+            self.read_beside_held(settled);
+            return;
+        }
         if self.ratio.denominator() > 0.0 && self.read_on() {
             return;
         }
@@ -258,11 +291,6 @@ impl ParameterState {
         } else {
             ParameterStatus::Valid
         };
-        if self.status == ParameterStatus::Valid {
-            self.held = None;
-        } else if self.held.is_some() {
-            self.status = ParameterStatus::Held;
-        }
     }
 }
 

@@ -7,7 +7,7 @@
 //! | `path`, `reference` | where to fly: position and attitude with their derivatives |
 //! | `pilot` | the core in the loop, and the yardstick |
 //! | `flight` | plant, sensors and a pilot, tick by tick |
-//! | `record` | what is kept of a flight |
+//! | `record`, `outcome` | a flight recorded, and what is kept of it |
 //! | `small_angle` | the paper's rotational model looking on |
 //! | `many` | many flights on all cores |
 //! | `tables`, `figures`, `scene`, `page` | the report |
@@ -20,6 +20,7 @@ pub mod figures;
 pub mod flight;
 pub mod load;
 pub mod many;
+pub mod outcome;
 pub mod page;
 pub mod path;
 pub mod pilot;
