@@ -11,6 +11,8 @@ pub(super) struct Column<'a> {
     pub position: &'a [Option<f64>],
     /// Mean input from each sample to the next \[N or N m\].
     pub input: &'a [f64],
+    /// The line with the input's moments from each sample to the next, where the input is not held.
+    pub ramps: Option<&'a [(f64, f64)]>,
 }
 
 /// What an axis's observer handed out, per sample.
@@ -73,7 +75,12 @@ pub(super) fn feed<const N: usize, const P: usize>(
         for (trace, value) in parameters.iter_mut().zip(estimator.parameters()) {
             trace.value[n] = value;
         }
-        estimator.apply(&columns.map(|c| c.input[n] as f32));
+        if columns.iter().any(|c| c.ramps.is_some()) {
+            let (from, to) = f32_line(columns, n);
+            estimator.apply_ramp(&from, &to);
+        } else {
+            estimator.apply(&columns.map(|c| c.input[n] as f32));
+        }
     }
     for (trace, status) in parameters.iter_mut().zip(estimator.parameter_status()) {
         trace.status = status;
@@ -85,4 +92,13 @@ pub(super) fn feed<const N: usize, const P: usize>(
         rejected_measurements: counters.rejected_measurements,
         rejected_inputs: counters.rejected_inputs,
     })
+}
+
+/// The input from sample `n` to the next, as the lines that it is or as what it is held at.
+pub(super) fn f32_line<const N: usize>(columns: &[Column<'_>; N], n: usize) -> ([f32; N], [f32; N]) {
+    let line = columns.map(|c| match c.ramps.and_then(|ramps| ramps.get(n)) {
+        Some(&(from, to)) => (from as f32, to as f32),
+        None => (c.input[n] as f32, c.input[n] as f32),
+    });
+    (line.map(|(from, _)| from), line.map(|(_, to)| to))
 }

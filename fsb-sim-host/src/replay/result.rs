@@ -2,9 +2,11 @@
 
 use super::error::ReplayError;
 use super::feed::{AxisTrace, Column, ParameterTrace, Trace, feed};
+use super::identified::{Identified, identify};
 use super::log::{Axis, AxisColumn, AxisLog};
 use super::options::{LIMIT, ReplayOptions};
 use fsb_core::ConfigError;
+use fsb_core::regression::Identify;
 
 /// What a replay gave. Every trace has one entry per sample of the log.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +23,8 @@ pub struct ReplayResult {
     pub mass: Option<ParameterTrace>,
     /// The axes present, in the order x, y, z, roll, pitch, yaw.
     pub axes: Vec<AxisResult>,
+    /// k, drag and disturbance together, where [`ReplayOptions::identify`] asks for it.
+    pub identified: Option<Identified>,
 }
 
 /// One axis of a replay.
@@ -60,11 +64,21 @@ pub fn run(options: &ReplayOptions, log: &AxisLog) -> Result<ReplayResult, Repla
         rejected: 0,
         mass: None,
         axes: Vec::with_capacity(log.axes.len()),
+        identified: None,
     };
     if !translational.is_empty() {
         let mut pooled = replay_group(options, log.period, &translational, true)?;
         let own = replay_group(options, log.period, &translational, false)?;
         result.mass = pooled.parameters.pop();
+        if let Some(identify) = options.identify {
+            let identified = identify_group(options, log.period, &translational)?;
+            // The model with more in it has the say, of k as of the velocities.
+            if identify != Identify::NOTHING_ELSE {
+                result.mass = Some(identified.parameter.clone());
+                pooled.axes.clone_from(&identified.axes);
+            }
+            result.identified = Some(identified);
+        }
         result.take(&translational, pooled, own.parameters);
     }
     if !rotational.is_empty() {
@@ -91,14 +105,7 @@ fn replay_group(
     axes: &[&AxisColumn],
     pooled: bool,
 ) -> Result<Trace, ReplayError> {
-    let samples = axes.iter().map(|a| a.position.len()).min().unwrap_or(0);
-    let start = (0..samples)
-        .find(|&n| axes.iter().all(|a| a.position[n].is_some_and(|y| y.abs() <= LIMIT)))
-        .ok_or_else(|| {
-            let names: Vec<&str> = axes.iter().map(|a| a.axis.name()).collect();
-            ReplayError::NeverMeasured { columns: names.join(", ") }
-        })?;
-    let group = Group { options, period, axes, start };
+    let group = Group::new(options, period, axes)?;
     match (axes.len(), pooled) {
         (1, _) => group.feed::<1, 1>(),
         (2, true) => group.feed::<2, 1>(),
@@ -106,7 +113,17 @@ fn replay_group(
         (_, true) => group.feed::<3, 1>(),
         (_, false) => group.feed::<3, 3>(),
     }
-    .map_err(|cause| ReplayError::Parameter { cause, options: Box::new(*options), period })
+    .map_err(|cause| group.refuse(cause))
+}
+
+fn identify_group(options: &ReplayOptions, period: f64, axes: &[&AxisColumn]) -> Result<Identified, ReplayError> {
+    let group = Group::new(options, period, axes)?;
+    match axes.len() {
+        1 => group.identify::<1>(),
+        2 => group.identify::<2>(),
+        _ => group.identify::<3>(),
+    }
+    .map_err(|cause| group.refuse(cause))
 }
 
 struct Group<'a> {
@@ -116,15 +133,40 @@ struct Group<'a> {
     start: usize,
 }
 
-impl Group<'_> {
+impl<'a> Group<'a> {
+    fn new(options: &'a ReplayOptions, period: f64, axes: &'a [&'a AxisColumn]) -> Result<Self, ReplayError> {
+        let samples = axes.iter().map(|a| a.position.len()).min().unwrap_or(0);
+        let start = (0..samples)
+            .find(|&n| axes.iter().all(|a| a.position[n].is_some_and(|y| y.abs() <= LIMIT)))
+            .ok_or_else(|| {
+                let names: Vec<&str> = axes.iter().map(|a| a.axis.name()).collect();
+                ReplayError::NeverMeasured { columns: names.join(", ") }
+            })?;
+        Ok(Self { options, period, axes, start })
+    }
+
+    fn refuse(&self, cause: ConfigError) -> ReplayError {
+        ReplayError::Parameter { cause, options: Box::new(*self.options), period: self.period }
+    }
+
+    fn columns<const N: usize>(&self) -> [Column<'a>; N] {
+        std::array::from_fn(|i| {
+            let axis = self.axes[i];
+            Column { position: &axis.position, input: &axis.input, ramps: axis.ramps.as_deref() }
+        })
+    }
+
+    fn drift<const N: usize>(&self) -> [f64; N] {
+        std::array::from_fn(|i| if self.axes[i].axis == Axis::Z { -self.options.gravity } else { 0.0 })
+    }
+
     /// `N` is the number of axes.
     fn feed<const N: usize, const P: usize>(&self) -> Result<Trace, ConfigError> {
-        let columns: [Column<'_>; N] = std::array::from_fn(|i| {
-            let axis = self.axes[i];
-            Column { position: &axis.position, input: &axis.input }
-        });
-        let drift = std::array::from_fn(|i| if self.axes[i].axis == Axis::Z { -self.options.gravity } else { 0.0 });
-        feed(&self.options.config::<N, P>(self.period, drift), &columns, self.start)
+        feed(&self.options.config::<N, P>(self.period, self.drift()), &self.columns(), self.start)
+    }
+
+    fn identify<const N: usize>(&self) -> Result<Identified, ConfigError> {
+        identify(self.options, self.period, self.drift::<N>(), &self.columns(), self.start)
     }
 }
 
