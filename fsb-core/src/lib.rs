@@ -12,6 +12,7 @@ pub mod identifier;
 pub mod moments;
 pub mod observer;
 pub mod readout;
+pub mod regression;
 pub mod tuning;
 pub mod window;
 

@@ -224,7 +224,7 @@ impl Common {
 }
 
 /// The number of measurements in `seconds`, rounded up.
-fn samples(name: &'static str, seconds: f64, period: f64) -> Result<u32, ConfigError> {
+pub(crate) fn samples(name: &'static str, seconds: f64, period: f64) -> Result<u32, ConfigError> {
     if finite(name, seconds)? < 0.0 {
         return Err(ConfigError::Negative(name));
     }
@@ -232,6 +232,6 @@ fn samples(name: &'static str, seconds: f64, period: f64) -> Result<u32, ConfigE
     if count > 1e9 { Err(ConfigError::OutOfRange(name)) } else { Ok(libm::fmax(count, 0.0) as u32) }
 }
 
-fn limit(name: &'static str, value: f64) -> Result<f32, ConfigError> {
+pub(crate) fn limit(name: &'static str, value: f64) -> Result<f32, ConfigError> {
     if positive(name, value)? > 1e6 { Err(ConfigError::OutOfRange(name)) } else { Ok(value as f32) }
 }

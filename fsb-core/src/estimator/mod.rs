@@ -34,6 +34,7 @@ mod tests;
 
 pub use config::EstimatorConfig;
 pub use design::EstimatorDesign;
+pub(crate) use design::{limit, samples};
 pub use output::{AxisDiagnostics, AxisState, Counters, OutOfStep, StateStatus};
 
 use crate::error::ConfigError;

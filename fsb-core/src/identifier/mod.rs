@@ -26,6 +26,7 @@ mod unit;
 pub use block::{BlockDesign, BlockMean, BlockMeans};
 pub use cascade::Cascade;
 pub(crate) use cascade::Stage;
+pub(crate) use coefficients::KEEP_NORMAL;
 pub use coefficients::{Coefficients, IdentifierDesign};
 pub use free_state::FreeState;
 pub(crate) use free_state::{Completed, Hypothesis};

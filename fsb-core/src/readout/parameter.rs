@@ -111,11 +111,11 @@ impl ParameterRule {
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct CheckedRule {
-    min: f32,
-    max: f32,
-    relative_variance: f32,
+    pub min: f32,
+    pub max: f32,
+    pub relative_variance: f32,
     /// The same for a parameter that is valid already.
-    limit_to_stay: f32,
+    pub limit_to_stay: f32,
 }
 
 /// One parameter: its sums, pooled over the axes that share it, and what has been read out of them.

@@ -1,0 +1,109 @@
+//! Three axes with linear drag and a constant disturbance, flown by a PD-like law: the truth for the regression.
+
+use rand_distr::{Distribution, Normal};
+use rand_pcg::Pcg64;
+
+/// y'' = k f - D y' + a, the input held over each step, moved in closed form.
+#[derive(Clone, Copy, Debug)]
+pub struct DragAxis {
+    /// y (m).
+    pub position: f64,
+    /// y' [m/s].
+    pub velocity: f64,
+    /// k [1/kg].
+    pub k: f64,
+    /// D [1/s].
+    pub drag: f64,
+    /// Known drift and disturbance, c + d [m/s²].
+    pub acceleration: f64,
+}
+
+impl DragAxis {
+    /// Moves `dt` (s) ahead with the input held at `f` (N).
+    pub fn step(&mut self, f: f64, dt: f64) {
+        let a = self.k * f + self.acceleration;
+        let x = self.drag * dt;
+        // (1 - e^(-x))/x and (1 - that)/x, by series where the quotients would cancel.
+        let (first, second) = if x.abs() < 1e-2 {
+            let first = 1.0 - x / 2.0 * (1.0 - x / 3.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0))));
+            (first, 0.5 * (1.0 - x / 3.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0 * (1.0 - x / 7.0))))))
+        } else {
+            let first = -(-x).exp_m1() / x;
+            (first, (1.0 - first) / x)
+        };
+        self.position += dt * first * self.velocity + dt * dt * second * a;
+        self.velocity += dt * first * a - x * first * self.velocity;
+    }
+}
+
+/// What to fly.
+#[derive(Clone, Copy, Debug)]
+pub struct DragFlight {
+    /// Time between measurements (s), the input being held in between.
+    pub period: f64,
+    /// k [1/kg].
+    pub k: f64,
+    /// D of each axis [1/s].
+    pub drag: [f64; 3],
+    /// d of each axis [m/s²]; gravity acts on z besides.
+    pub disturbance: [f64; 3],
+    /// Amplitude of the reference on each axis (m).
+    pub amplitude: [f64; 3],
+    /// Standard deviation of the measurements (m).
+    pub noise: f64,
+}
+
+/// Gravity on z [m/s²].
+pub const DRIFT: [f64; 3] = [0.0, 0.0, -9.81];
+
+/// One measurement instant of a flight.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant {
+    /// Time (s).
+    pub t: f64,
+    /// Measured positions (m).
+    pub measured: [f32; 3],
+    /// True velocities [m/s].
+    pub velocity: [f64; 3],
+    /// The forces held from now on (N), as the estimator is given them.
+    pub force: [f32; 3],
+}
+
+impl DragFlight {
+    /// The instants of a flight of `seconds`. The law flies on the truth: the noise is only measured.
+    pub fn fly<'a>(&self, seconds: f64, rng: &'a mut Pcg64) -> impl Iterator<Item = Instant> + 'a {
+        let flight = *self;
+        let noise = Normal::new(0.0, flight.noise).expect("a standard deviation");
+        let mut axes = [0, 1, 2].map(|i| DragAxis {
+            position: [1.0, -2.0, 3.0][i],
+            velocity: [0.2, -0.1, 0.3][i] * flight.amplitude[i],
+            k: flight.k,
+            drag: flight.drag[i],
+            acceleration: DRIFT[i] + flight.disturbance[i],
+        });
+        (0..(seconds / flight.period) as usize).map(move |n| {
+            let t = n as f64 * flight.period;
+            let instant = Instant {
+                t,
+                measured: [0, 1, 2].map(|i| (axes[i].position + noise.sample(rng)) as f32),
+                velocity: axes.map(|a| a.velocity),
+                force: [0, 1, 2].map(|i| flight.force(i, t, &axes[i]) as f32),
+            };
+            for (axis, f) in axes.iter_mut().zip(instant.force) {
+                axis.step(f64::from(f), flight.period);
+            }
+            instant
+        })
+    }
+
+    fn force(&self, i: usize, t: f64, axis: &DragAxis) -> f64 {
+        let (w, a) = ([1.3, 1.7, 1.1][i], self.amplitude[i]);
+        let centre = [1.0, -2.0, 3.0][i];
+        let (target, rate) = (
+            centre + a * ((w * t).sin() + 0.4 * (2.3 * w * t).cos() - 0.4),
+            a * w * ((w * t).cos() - 0.92 * (2.3 * w * t).sin()),
+        );
+        let wanted = 6.0 * (target - axis.position) + 5.0 * (rate - axis.velocity);
+        (wanted - axis.acceleration + axis.drag * axis.velocity) / axis.k
+    }
+}
