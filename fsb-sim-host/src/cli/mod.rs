@@ -18,6 +18,7 @@ mod exactness;
 mod paper;
 mod replay;
 mod soak;
+mod source;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -26,7 +27,7 @@ use clap::{Parser, Subcommand};
 use serde::Serialize;
 
 const EXIT_STATUS: &str = "Exit status: 0 done; 1 it failed, or what the command checks does not hold; 2 a parameter or an \
-                           input is wrong, and nothing was written.";
+                           input is wrong, and nothing was written; 3 there is no flight in the log.";
 
 /// k and the state of a multirotor from noisy positions: the paper reproduced, and what the f32 core is worth.
 ///
@@ -57,6 +58,8 @@ enum Command {
 enum Failure {
     /// A parameter or an input is wrong: exit status 2.
     Usage(String),
+    /// The log is a good one, but nothing flies in it: exit status 3.
+    NoFlight(String),
     /// Something else: exit status 1.
     Other(anyhow::Error),
 }
@@ -81,6 +84,10 @@ pub fn run() -> ExitCode {
         Err(Failure::Usage(message)) => {
             eprintln!("error: {message}");
             ExitCode::from(2)
+        }
+        Err(Failure::NoFlight(message)) => {
+            eprintln!("error: {message}");
+            ExitCode::from(3)
         }
         Err(Failure::Other(error)) => {
             eprintln!("error: {error:#}");

@@ -40,6 +40,20 @@ impl ParameterTrace {
     }
 }
 
+/// Told now and then how many more samples have been gone through.
+#[derive(Clone, Copy)]
+pub struct Watch<'a>(pub &'a dyn Fn(u64));
+
+impl Watch<'_> {
+    const EVERY: usize = 4096;
+
+    pub(super) fn sample(self, n: usize) {
+        if n % Self::EVERY == Self::EVERY - 1 {
+            (self.0)(Self::EVERY as u64);
+        }
+    }
+}
+
 /// A group of axes, replayed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trace {
@@ -56,12 +70,14 @@ pub(super) fn feed<const N: usize, const P: usize>(
     config: &EstimatorConfig<N, P>,
     columns: &[Column<'_>; N],
     start: usize,
+    watch: Watch<'_>,
 ) -> Result<Trace, ConfigError> {
     let mut estimator = Estimator::new(config)?;
     let samples = columns.iter().map(|c| c.position.len().min(c.input.len())).min().unwrap_or(0);
     let mut axes = vec![AxisTrace { state: vec![None; samples], innovation: vec![None; samples] }; N];
     let mut parameters = vec![ParameterTrace { value: vec![None; samples], status: ParameterStatus::default() }; P];
     for n in start..samples {
+        watch.sample(n);
         let positions = columns.map(|c| c.position[n].map(|y| y as f32));
         // One input follows each measurement, so that the next one is always due.
         if estimator.measure(&positions).is_err() {

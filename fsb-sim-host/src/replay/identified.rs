@@ -1,6 +1,6 @@
 //! k, drag and disturbance identified together by the core, sample by sample.
 
-use super::feed::{AxisTrace, Column, ParameterTrace, f32_line};
+use super::feed::{AxisTrace, Column, ParameterTrace, Watch, f32_line};
 use super::options::{LIMIT, ReplayOptions};
 use fsb_core::ConfigError;
 use fsb_core::regression::{AxisTerms, DragConfig, DragEstimator, Identify};
@@ -57,6 +57,7 @@ pub(super) fn identify<const N: usize>(
     drift: [f64; N],
     columns: &[Column<'_>; N],
     start: usize,
+    watch: Watch<'_>,
 ) -> Result<Identified, ConfigError> {
     let mut estimator = DragEstimator::new(&options.drag_config(period, drift))?;
     let samples = columns.iter().map(|c| c.position.len().min(c.input.len())).min().unwrap_or(0);
@@ -68,6 +69,7 @@ pub(super) fn identify<const N: usize>(
     };
     let mut signals = Vec::with_capacity(samples);
     for n in start..samples {
+        watch.sample(n);
         let positions = columns.map(|c| c.position[n].map(|y| y as f32));
         if estimator.measure(&positions).is_err() {
             continue;

@@ -2,8 +2,9 @@
 
 use super::estimates::to_csv;
 use super::figures::figures;
-use super::log::AxisLog;
+use super::options::ReplayOptions;
 use super::overview::table;
+use super::recording::Recording;
 use super::result::ReplayResult;
 use crate::report::chart::ChartError;
 use crate::report::html::{Block, HowMade, Page, Section};
@@ -12,7 +13,14 @@ use crate::report::html::{Block, HowMade, Page, Section};
 ///
 /// # Errors
 /// [`ChartError`] of a figure that cannot be drawn.
-pub fn files(result: &ReplayResult, log: &AxisLog, how: HowMade) -> Result<Vec<(String, String)>, ChartError> {
+pub fn files(
+    result: &ReplayResult,
+    recording: &Recording,
+    options: &ReplayOptions,
+    how: HowMade,
+) -> Result<Vec<(String, String)>, ChartError> {
+    let log = &recording.log;
+    let _ = options;
     let figures = figures(result, log);
     let mut files = vec![("estimates.csv".to_owned(), to_csv(result, log))];
     for (name, chart) in &figures {

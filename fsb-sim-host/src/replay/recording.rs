@@ -27,6 +27,13 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// The flight controller's own hover thrust: the last one within the recording that it called valid.
+    #[must_use]
+    pub fn px4_hover(&self) -> Option<f64> {
+        let end = self.log.time(self.log.len() - 1);
+        self.hover.iter().rev().find(|hover| hover.valid && hover.t <= end).map(|hover| hover.value)
+    }
+
     /// Of an axis log. `tried` is called after each trial of the search for the lag.
     #[must_use]
     pub fn of_log(log: AxisLog, lag: Lag, options: &ReplayOptions, tried: impl Fn()) -> Self {

@@ -1,7 +1,7 @@
 //! The whole replay, and what came out.
 
 use super::error::ReplayError;
-use super::feed::{AxisTrace, Column, ParameterTrace, Trace, feed};
+use super::feed::{AxisTrace, Column, ParameterTrace, Trace, Watch, feed};
 use super::identified::{Identified, identify};
 use super::log::{Axis, AxisColumn, AxisLog};
 use super::options::{LIMIT, ReplayOptions};
@@ -54,6 +54,14 @@ impl ReplayResult {
 /// # Errors
 /// [`ReplayError`] with the option at fault, or the columns that are never measured together.
 pub fn run(options: &ReplayOptions, log: &AxisLog) -> Result<ReplayResult, ReplayError> {
+    run_watched(options, log, Watch(&|_| {}))
+}
+
+/// As [`run`], `watch` being told how many more samples have been gone through, of [`passes`] times the log in all.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_watched(options: &ReplayOptions, log: &AxisLog, watch: Watch<'_>) -> Result<ReplayResult, ReplayError> {
     options.check_gravity()?;
     let (rotational, translational): (Vec<&AxisColumn>, Vec<&AxisColumn>) =
         log.axes.iter().partition(|a| !a.axis.is_translation());
@@ -67,11 +75,11 @@ pub fn run(options: &ReplayOptions, log: &AxisLog) -> Result<ReplayResult, Repla
         identified: None,
     };
     if !translational.is_empty() {
-        let mut pooled = replay_group(options, log.period, &translational, true)?;
-        let own = replay_group(options, log.period, &translational, false)?;
+        let mut pooled = replay_group(options, log.period, &translational, true, watch)?;
+        let own = replay_group(options, log.period, &translational, false, watch)?;
         result.mass = pooled.parameters.pop();
         if let Some(identify) = options.identify {
-            let identified = identify_group(options, log.period, &translational)?;
+            let identified = identify_group(options, log.period, &translational, watch)?;
             // The model with more in it has the say, of k as of the velocities.
             if identify != Identify::NOTHING_ELSE {
                 result.mass = Some(identified.parameter.clone());
@@ -82,7 +90,7 @@ pub fn run(options: &ReplayOptions, log: &AxisLog) -> Result<ReplayResult, Repla
         result.take(&translational, pooled, own.parameters);
     }
     if !rotational.is_empty() {
-        let mut each = replay_group(options, log.period, &rotational, false)?;
+        let mut each = replay_group(options, log.period, &rotational, false, watch)?;
         let own = std::mem::take(&mut each.parameters);
         result.take(&rotational, each, own);
     }
@@ -99,13 +107,22 @@ impl ReplayResult {
     }
 }
 
+/// How often [`run_watched`] goes through `log`.
+#[must_use]
+pub fn passes(options: &ReplayOptions, log: &AxisLog) -> u64 {
+    let rotational = log.axes.iter().any(|a| !a.axis.is_translation());
+    let translational = log.axes.iter().any(|a| a.axis.is_translation());
+    u64::from(rotational) + u64::from(translational) * (2 + u64::from(options.identify.is_some()))
+}
+
 fn replay_group(
     options: &ReplayOptions,
     period: f64,
     axes: &[&AxisColumn],
     pooled: bool,
+    watch: Watch<'_>,
 ) -> Result<Trace, ReplayError> {
-    let group = Group::new(options, period, axes)?;
+    let group = Group::new(options, period, axes, watch)?;
     match (axes.len(), pooled) {
         (1, _) => group.feed::<1, 1>(),
         (2, true) => group.feed::<2, 1>(),
@@ -116,8 +133,13 @@ fn replay_group(
     .map_err(|cause| group.refuse(cause))
 }
 
-fn identify_group(options: &ReplayOptions, period: f64, axes: &[&AxisColumn]) -> Result<Identified, ReplayError> {
-    let group = Group::new(options, period, axes)?;
+fn identify_group(
+    options: &ReplayOptions,
+    period: f64,
+    axes: &[&AxisColumn],
+    watch: Watch<'_>,
+) -> Result<Identified, ReplayError> {
+    let group = Group::new(options, period, axes, watch)?;
     match axes.len() {
         1 => group.identify::<1>(),
         2 => group.identify::<2>(),
@@ -131,10 +153,16 @@ struct Group<'a> {
     period: f64,
     axes: &'a [&'a AxisColumn],
     start: usize,
+    watch: Watch<'a>,
 }
 
 impl<'a> Group<'a> {
-    fn new(options: &'a ReplayOptions, period: f64, axes: &'a [&'a AxisColumn]) -> Result<Self, ReplayError> {
+    fn new(
+        options: &'a ReplayOptions,
+        period: f64,
+        axes: &'a [&'a AxisColumn],
+        watch: Watch<'a>,
+    ) -> Result<Self, ReplayError> {
         let samples = axes.iter().map(|a| a.position.len()).min().unwrap_or(0);
         let start = (0..samples)
             .find(|&n| axes.iter().all(|a| a.position[n].is_some_and(|y| y.abs() <= LIMIT)))
@@ -142,7 +170,7 @@ impl<'a> Group<'a> {
                 let names: Vec<&str> = axes.iter().map(|a| a.axis.name()).collect();
                 ReplayError::NeverMeasured { columns: names.join(", ") }
             })?;
-        Ok(Self { options, period, axes, start })
+        Ok(Self { options, period, axes, start, watch })
     }
 
     fn refuse(&self, cause: ConfigError) -> ReplayError {
@@ -162,11 +190,11 @@ impl<'a> Group<'a> {
 
     /// `N` is the number of axes.
     fn feed<const N: usize, const P: usize>(&self) -> Result<Trace, ConfigError> {
-        feed(&self.options.config::<N, P>(self.period, self.drift()), &self.columns(), self.start)
+        feed(&self.options.config::<N, P>(self.period, self.drift()), &self.columns(), self.start, self.watch)
     }
 
     fn identify<const N: usize>(&self) -> Result<Identified, ConfigError> {
-        identify(self.options, self.period, self.drift::<N>(), &self.columns(), self.start)
+        identify(self.options, self.period, self.drift::<N>(), &self.columns(), self.start, self.watch)
     }
 }
 
