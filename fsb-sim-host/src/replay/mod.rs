@@ -24,13 +24,16 @@
 //! | `summary` | the same as one JSON object |
 //! | `overview` | the same as a table |
 //! | `estimates` | the same sample by sample, as CSV |
-//! | `figures`, `page` | the same to look at |
+//! | `figures`, `figures_left`, `page` | the same to look at |
+//! | `compare` | beside what else one could do with the same data |
 //! | `error` | why a replay was refused |
 
+pub mod compare;
 pub mod error;
 pub mod estimates;
 mod feed;
 mod figures;
+mod figures_left;
 pub mod fit;
 pub mod flight;
 pub mod identified;

@@ -39,8 +39,7 @@ pub fn table(result: &ReplayResult) -> Table {
 pub fn text(result: &ReplayResult, summary: &Summary) -> String {
     let mut text = table(result).to_text();
     if result.identified.is_some() {
-        text.push('\n');
-        text.push_str(&terms(summary).to_text());
+        text.push_str(&format!("\n{}", terms(summary).to_text()));
     }
     if let Some(hover) = &summary.hover_thrust {
         let known = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |value| format!("{value:.4}"));
@@ -59,7 +58,7 @@ pub fn terms(summary: &Summary) -> Table {
         Column::right("disturbance d [m/s²]"),
         Column::right("sd"),
     ];
-    let mut table = Table::new("Drag and disturbance: y'' = k f - D y' + c + d", columns);
+    let mut table = Table::new("Drag and disturbance, y'' = k f - D y' + c + d", columns);
     for (name, axis) in &summary.axes.0 {
         let Some(terms) = axis.terms else { continue };
         let cell = |value: Option<f32>| value.map_or(Cell::Missing, |value| Cell::fixed(f64::from(value), 3));

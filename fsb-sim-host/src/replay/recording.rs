@@ -40,7 +40,7 @@ impl Recording {
         let mut notices = notice::noticed(&log);
         let search = match lag {
             Lag::Given(_) => None,
-            Lag::Auto => find(|lag| log.delayed(lag), options.identifier, options.gravity, tried),
+            Lag::Auto => find(|lag| log.delayed(lag), options.gravity, tried),
         };
         let lag = chosen(lag, search.as_ref(), &mut notices);
         Self {
@@ -75,7 +75,7 @@ impl Recording {
         let delayed = |lag| flight.on_grid(file, lag, known).unwrap_or_else(|_| first.clone());
         let search = match lag {
             Lag::Given(_) => None,
-            Lag::Auto => find(delayed, options.identifier, gravity, tried),
+            Lag::Auto => find(delayed, gravity, tried),
         };
         let lag = chosen(lag, search.as_ref(), &mut notices);
         let log = flight.on_grid(file, lag, known)?;

@@ -32,10 +32,14 @@ pub struct KnownMotion {
 }
 
 impl Flight {
-    /// The step that most positions are apart \[s\], to the microsecond.
+    /// The mean step from one position to the next \[s\], to the microsecond: of those within half of the median one, so that
+    /// lost measurements do not count.
     #[must_use]
     pub fn step(&self) -> f64 {
-        (median(self.times.windows(2).map(|pair| pair[1] - pair[0])) * 1e6).round() * 1e-6
+        let steps = || self.times.windows(2).map(|pair| pair[1] - pair[0]);
+        let middle = median(steps());
+        let usual = || steps().filter(|step| (step - middle).abs() < middle / 2.0);
+        (usual().sum::<f64>() / usual().count() as f64 * 1e6).round() / 1e6
     }
 
     /// The k that balances gravity on average: a first value for [`on_grid`](Self::on_grid).
