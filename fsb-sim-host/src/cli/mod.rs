@@ -4,6 +4,8 @@
 //! |---|---|
 //! | `paper` | Section V with its table, figures and statistics; also what runs without arguments |
 //! | `replay` | a recorded flight through the core |
+//! | `source` | the files of a recorded flight |
+//! | `tune` | λ, q and ε from what is known and wanted |
 //! | `efficiency` | the spread of k̂ against the Cramér-Rao bound |
 //! | `exactness` | what rounding to f32 leaves of the errors |
 //! | `soak` | hours of simulated flight beside the f64 twin |
@@ -19,6 +21,7 @@ mod paper;
 mod replay;
 mod soak;
 mod source;
+mod tune;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -45,6 +48,8 @@ enum Command {
     Paper(paper::Args),
     #[command(after_help = EXIT_STATUS)]
     Replay(replay::Args),
+    #[command(after_help = EXIT_STATUS)]
+    Tune(tune::Args),
     #[command(after_help = EXIT_STATUS)]
     Efficiency(efficiency::Args),
     #[command(after_help = EXIT_STATUS)]
@@ -75,6 +80,7 @@ pub fn run() -> ExitCode {
     let done = match Cli::parse().command.unwrap_or_else(|| Command::Paper(paper::Args::default())) {
         Command::Paper(args) => paper::run(&args),
         Command::Replay(args) => replay::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Tune(args) => tune::run(&args),
         Command::Efficiency(args) => efficiency::run(&args),
         Command::Exactness(args) => exactness::run(&args),
         Command::Soak(args) => soak::run(&args),

@@ -68,6 +68,20 @@ pub enum Content {
 }
 
 impl Files {
+    /// One log, its input taken as it is stamped.
+    pub fn of(log: &Path) -> Self {
+        Self {
+            log: Some(log.to_owned()),
+            motion: None,
+            input: None,
+            columns: None,
+            column: Vec::new(),
+            normalised: false,
+            full_thrust: None,
+            lag: Lag::default(),
+        }
+    }
+
     /// The file or files as given, for messages.
     pub fn name(&self) -> String {
         let path = self.log.as_ref().or(self.motion.as_ref());
