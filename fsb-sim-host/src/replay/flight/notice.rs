@@ -10,7 +10,7 @@ const SATURATED: f64 = 0.05;
 const GAP: f64 = 0.1;
 /// A step of the position is a jump from this on \[m\] …
 const JUMP: f64 = 0.1;
-/// … where it is so many times the usual change of a step.
+/// … where it is so many times what is usual.
 const UNUSUAL: f64 = 50.0;
 
 impl Flight {
@@ -68,16 +68,16 @@ fn gaps(what: &str, times: &[f64], usual: f64, consequence: &str) -> Option<Stri
     Some(format!("{what}: {gaps} of {length:.2} s at t = {t:.2} s; {consequence}"))
 }
 
-/// One line for all jumps of a position: a step far larger than the ones before and after it.
+/// One line for all jumps of a position: a step that is far from what the velocities around it explain.
 fn jumps(name: &str, track: &[(f64, f64)]) -> Option<String> {
-    let steps: Vec<f64> = track.windows(2).map(|pair| pair[1].1 - pair[0].1).collect();
-    let limit = (UNUSUAL * median(steps.windows(2).map(|pair| (pair[1] - pair[0]).abs()))).max(JUMP);
-    let regular = median(track.windows(2).map(|pair| pair[1].0 - pair[0].0));
-    let found: Vec<(f64, f64)> = (1..steps.len().saturating_sub(1))
-        .filter(|&i| track[i + 1].0 - track[i].0 < LARGEST_BRACKET * regular)
-        .map(|i| (track[i + 1].0, steps[i] - (steps[i - 1] + steps[i + 1]) / 2.0))
-        .filter(|&(_, excess)| excess.abs() > limit)
+    let velocity: Vec<f64> = track.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0)).collect();
+    // The middle one of five does not see a single step.
+    let around = |i: usize| median(velocity[i.saturating_sub(2)..(i + 3).min(velocity.len())].iter().copied());
+    let excess: Vec<(f64, f64)> = (0..velocity.len())
+        .map(|i| (track[i + 1].0, (velocity[i] - around(i)) * (track[i + 1].0 - track[i].0)))
         .collect();
+    let limit = (UNUSUAL * median(excess.iter().map(|(_, e)| e.abs()))).max(JUMP);
+    let found: Vec<(f64, f64)> = excess.into_iter().filter(|(_, excess)| excess.abs() > limit).collect();
     let (t, size) = found.first()?;
     let count = if found.len() == 1 { String::new() } else { format!(", the first of {} such jumps", found.len()) };
     Some(format!(
