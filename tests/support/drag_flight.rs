@@ -51,6 +51,8 @@ pub struct DragFlight {
     pub amplitude: [f64; 3],
     /// Standard deviation of the measurements (m).
     pub noise: f64,
+    /// Standard deviation of a known, white part of the input [m/s²].
+    pub flutter: f64,
 }
 
 /// Gravity on z [m/s²].
@@ -69,38 +71,65 @@ pub struct Instant {
     pub force: [f32; 3],
 }
 
-impl DragFlight {
-    /// The instants of a flight of `seconds`. The law flies on the truth: the noise is only measured.
-    pub fn fly<'a>(&self, seconds: f64, rng: &'a mut Pcg64) -> impl Iterator<Item = Instant> + 'a {
-        let flight = *self;
-        let noise = Normal::new(0.0, flight.noise).expect("a standard deviation");
-        let mut axes = [0, 1, 2].map(|i| DragAxis {
-            position: [1.0, -2.0, 3.0][i],
+/// The vehicle in flight. What it obeys may change from one instant to the next.
+#[derive(Clone, Copy, Debug)]
+pub struct Flyer {
+    n: u64,
+    axes: [DragAxis; 3],
+}
+
+const CENTRE: [f64; 3] = [1.0, -2.0, 3.0];
+
+impl Flyer {
+    /// At the centre of its motion, already moving unless the reference stands still.
+    pub fn new(flight: &DragFlight) -> Self {
+        let axes = [0, 1, 2].map(|i| DragAxis {
+            position: CENTRE[i],
             velocity: [0.2, -0.1, 0.3][i] * flight.amplitude[i],
-            k: flight.k,
-            drag: flight.drag[i],
-            acceleration: DRIFT[i] + flight.disturbance[i],
+            k: 0.0,
+            drag: 0.0,
+            acceleration: 0.0,
         });
-        (0..(seconds / flight.period) as usize).map(move |n| {
-            let t = n as f64 * flight.period;
-            let instant = Instant {
-                t,
-                measured: [0, 1, 2].map(|i| (axes[i].position + noise.sample(rng)) as f32),
-                velocity: axes.map(|a| a.velocity),
-                force: [0, 1, 2].map(|i| flight.force(i, t, &axes[i]) as f32),
-            };
-            for (axis, f) in axes.iter_mut().zip(instant.force) {
-                axis.step(f64::from(f), flight.period);
-            }
-            instant
-        })
+        Self { n: 0, axes }
+    }
+
+    /// The present instant, and on to the next one. The law flies on the truth: the noise is only measured.
+    pub fn step(&mut self, flight: &DragFlight, rng: &mut Pcg64) -> Instant {
+        let unit = Normal::new(0.0, 1.0).expect("a standard deviation");
+        let t = self.n as f64 * flight.period;
+        self.n += 1;
+        for (i, axis) in self.axes.iter_mut().enumerate() {
+            axis.k = flight.k;
+            axis.drag = flight.drag[i];
+            axis.acceleration = DRIFT[i] + flight.disturbance[i];
+        }
+        let instant = Instant {
+            t,
+            measured: self.axes.map(|a| (a.position + flight.noise * unit.sample(rng)) as f32),
+            velocity: self.axes.map(|a| a.velocity),
+            force: [0, 1, 2].map(|i| {
+                let flutter = flight.flutter * unit.sample(rng) / flight.k;
+                (flight.force(i, t, &self.axes[i]) + flutter) as f32
+            }),
+        };
+        for (axis, f) in self.axes.iter_mut().zip(instant.force) {
+            axis.step(f64::from(f), flight.period);
+        }
+        instant
+    }
+}
+
+impl DragFlight {
+    /// The instants of a flight of `seconds`.
+    pub fn fly<'a>(&self, seconds: f64, rng: &'a mut Pcg64) -> impl Iterator<Item = Instant> + use<'a> {
+        let (flight, mut flyer) = (*self, Flyer::new(self));
+        (0..(seconds / flight.period) as usize).map(move |_| flyer.step(&flight, rng))
     }
 
     fn force(&self, i: usize, t: f64, axis: &DragAxis) -> f64 {
         let (w, a) = ([1.3, 1.7, 1.1][i], self.amplitude[i]);
-        let centre = [1.0, -2.0, 3.0][i];
         let (target, rate) = (
-            centre + a * ((w * t).sin() + 0.4 * (2.3 * w * t).cos() - 0.4),
+            CENTRE[i] + a * ((w * t).sin() + 0.4 * (2.3 * w * t).cos() - 0.4),
             a * w * ((w * t).cos() - 0.92 * (2.3 * w * t).sin()),
         );
         let wanted = 6.0 * (target - axis.position) + 5.0 * (rate - axis.velocity);

@@ -3,7 +3,8 @@
 use super::clock::Clock;
 use super::design::{AxisDesign, Common};
 use super::model::{DragModel, DragObserver};
-use super::triangle::{Estimate, Reduced, Row, Triangle};
+use super::reduced::{Estimate, Reduced};
+use super::triangle::{Row, Triangle};
 use super::velocity::VelocityCascade;
 use crate::identifier::{BlockMeans, Cascade};
 use crate::moments::InputMoments;
@@ -52,6 +53,8 @@ pub(super) struct Axis {
     pub columns: Columns,
     /// The columns that took part in the end, this round or the one before.
     pub used: Columns,
+    /// What part of the information on k is this axis's.
+    pub share: f32,
     /// Variance that a row, taken as independent of the others, has. Scaled.
     pub row_variance: f32,
     pub drag: Estimate,

@@ -69,8 +69,8 @@ impl Clock {
         self.unit.step(&common.identifier, &self.at);
     }
 
-    /// Whether the observers' and cascades' sums are to be folded.
-    pub const fn is_folding(&self) -> bool {
-        self.count & 7 == 7
+    /// Whether the sums of this axis's observer and cascades are to be folded: every eighth measurement, in turns.
+    pub const fn folds(&self, axis: u32) -> bool {
+        self.count.wrapping_add(axis) & 7 == 7
     }
 }

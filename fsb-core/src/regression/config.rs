@@ -74,7 +74,7 @@ impl<const N: usize> DragConfig<N> {
             nominal: None,
             rule: ParameterRule::default(),
             excitation: 0.03,
-            drag_sd_limit: 0.35,
+            drag_sd_limit: 0.25,
             disturbance_sd_limit: 0.2,
             parameter_settle: 0.0,
             state_settle: 0.0,

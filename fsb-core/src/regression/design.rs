@@ -35,6 +35,9 @@ pub(super) struct Common {
     pub forgetting: f32,
     /// Rows that one independent observation takes: 0.79/(λ T_row).
     pub colour: f32,
+    /// (λ T_row)²
+    pub row_rate2: f32,
+    pub per_scale: f32,
     pub per_scale2: f32,
     pub nominal: Option<f32>,
     pub rule: CheckedRule,
@@ -93,7 +96,7 @@ impl Common {
         {
             return Err(ConfigError::OutOfRange("nominal"));
         }
-        let row_every = row_every as u32;
+        let row_every = (row_every as u32).max(1);
         Ok(Self {
             substeps: config.substeps,
             substep: Substep::new(config.substeps)?,
@@ -107,6 +110,8 @@ impl Common {
             items_per_measurement: items(N as u32).div_ceil(row_every),
             forgetting: -libm::expm1(-fading) as f32,
             colour: (0.79 / (config.identifier.lambda * row)) as f32,
+            row_rate2: ((config.identifier.lambda * row) * (config.identifier.lambda * row)) as f32,
+            per_scale: 1.0 / identifier.scale,
             per_scale2: 1.0 / identifier.scale2(),
             nominal: config.nominal.map(|k| k as f32),
             rule: config.rule.checked()?,

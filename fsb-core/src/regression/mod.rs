@@ -12,6 +12,7 @@
 //! | `config`, `design` | plain data; the same, validated and turned into constants |
 //! | `velocity` | ẑv |
 //! | `triangle` | the rows of one axis as an upper triangle, by Givens rotations |
+//! | `reduced` | the same when it is read: columns left out, k, D and d with their variances |
 //! | `turns` | who does what between two rows: columns that can be told, k, D and d |
 //! | `pooled` | k over all axes, and its status |
 //! | `model` | prediction and observer with drag |
@@ -27,6 +28,7 @@ mod model;
 mod output;
 mod pooled;
 mod readings;
+mod reduced;
 mod seed;
 mod step;
 mod triangle;
@@ -36,7 +38,8 @@ mod velocity;
 pub use config::{DragConfig, Identify};
 pub use model::{DragModel, DragObserver};
 pub use output::{AxisTerms, DragDiagnostics, Term};
-pub use triangle::{Estimate, Reduced, Row, Triangle};
+pub use reduced::{Estimate, Reduced};
+pub use triangle::{Row, Triangle};
 pub use velocity::{VelocityCascade, VelocityDesign, VelocityWeights};
 
 use crate::error::ConfigError;
@@ -57,7 +60,7 @@ use pooled::Pooled;
 /// Non-finite policy: a measurement or an input that is not finite, or larger than its limit, is rejected and counted; a
 /// rejected measurement counts as missed and is predicted, a rejected input is replaced by the axis's mean input of late.
 /// No allocation, no panic, no transcendental, bounded work a call.
-/// Cost: per measurement and axis some 110 operations, and about 350 per row of the regression (every 0.1/λ), spread over
+/// Cost: per measurement and axis some 110 operations, and about 400 per row of the regression (every 0.1/λ), spread over
 /// the measurements in between.
 #[derive(Clone, Copy, Debug)]
 pub struct DragEstimator<const N: usize> {

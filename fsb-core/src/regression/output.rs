@@ -51,7 +51,7 @@ pub struct DragDiagnostics {
     pub zv: f32,
     /// ẑu: windowed, filtered one.
     pub zu: f32,
-    /// ẑ2 - k ẑ0 + D ẑv - d ẑu with what is used at present (m/s²); zero before there is a quotient.
+    /// ẑ2 - k ẑ0 + D ẑv - d ẑu with what is used at present (m/s²); zero while k̂ is not credible.
     pub residual: f32,
     /// The observer's innovation y - ŷ⁻ at the last measurement (m).
     pub innovation: f32,

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::design::Common;
-use super::triangle::Estimate;
+use super::reduced::Estimate;
 use crate::readout::{Parameter, ParameterStatus};
 
 /// k̂ and its status.
@@ -18,23 +18,22 @@ pub(super) struct Pooled {
 
 /// k = Σ info k_i / Σ info, and its variance, with the columns that take part at present free on each axis.
 pub(super) fn read(axes: &mut [Axis], common: &Common) -> Estimate {
-    let sharing = axes.len() as f32;
     let information: f32 = axes.iter().map(|axis| axis.reduced.information()).sum();
-    if !(information > 0.0) {
+    let per_information = 1.0 / information;
+    // Nothing known, or so little that it has no inverse.
+    if information.is_nan() || !per_information.is_finite() {
         return Estimate { value: 0.0, variance: f32::MAX };
     }
-    let per_information = 1.0 / information;
-    let share = |axis: &Axis| axis.reduced.information() * per_information;
-    let value = axes.iter().map(|axis| share(axis) * axis.reduced.k()).sum();
-    let mut row_variance = 0.0;
+    let mut value = 0.0;
     for axis in axes.iter_mut() {
-        let share = share(axis);
-        if share > 0.0 {
-            axis.weigh(value, sharing, common);
-            row_variance += share * axis.row_variance;
-        }
+        axis.share = axis.reduced.information() * per_information;
+        value += axis.share * axis.reduced.k();
     }
-    let variance = row_variance * per_information;
+    let mut variance = 0.0;
+    for axis in axes.iter_mut().filter(|axis| axis.share > 0.0) {
+        axis.weigh(value, common);
+        variance += axis.share * axis.share * axis.reduced.k_variance(axis.row_variance);
+    }
     Estimate { value, variance: if variance.is_finite() { variance } else { f32::MAX } }
 }
 

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Source};
 use super::output::{AxisTerms, DragDiagnostics, Term};
-use super::triangle::Estimate;
+use super::reduced::Estimate;
 use super::{DragEstimator, Identify};
 use crate::estimator::{AxisState, Counters, StateStatus};
 use crate::readout::{Parameter, ParameterStatus};
@@ -36,8 +36,9 @@ impl<const N: usize> DragEstimator<N> {
         let k = self.pooled.newest().value;
         self.axes.each_ref().map(|axis| {
             let count = axis.triangle.count();
-            let used = axis.triangle.keep(axis.used.disturbance, axis.used.drag);
-            (count > 0.0).then(|| used.residual(k) * self.common.per_scale2 / count)
+            let used = axis.triangle.keep(axis.used.disturbance, axis.used.drag, self.common.row_rate2);
+            let variance = used.residual(k) * self.common.per_scale2 / count;
+            (count > 0.0 && variance.is_finite()).then_some(variance)
         })
     }
 
@@ -82,18 +83,18 @@ impl<const N: usize> DragEstimator<N> {
 
     /// The regression's inner signals: for logs and tests, not for control.
     pub fn diagnostics(&self) -> [DragDiagnostics; N] {
-        let k = self.pooled.newest().value;
+        let k = self.pooled.credible();
         let scale = self.common.identifier.scale;
         self.axes.each_ref().map(|axis| {
             let row = axis.row(&self.clock);
             let (z2, z0, zv, zu) = (row.z2 / scale, row.z0 / scale, -row.minus_zv / scale, row.zu / scale);
-            let explained = k * z0 - axis.drag.value * zv + axis.disturbance.value * zu;
+            let explained = |k| k * z0 - axis.drag.value * zv + axis.disturbance.value * zu;
             DragDiagnostics {
                 z2,
                 z0,
                 zv,
                 zu,
-                residual: if k == 0.0 { 0.0 } else { z2 - explained },
+                residual: k.map_or(0.0, |k| z2 - explained(k)),
                 innovation: axis.observer.state().innovation(),
             }
         })

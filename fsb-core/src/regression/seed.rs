@@ -10,6 +10,9 @@ use super::clock::Clock;
 use super::design::Common;
 use super::model::DragModel;
 
+/// No state is this far out (m).
+const LARGEST: f32 = 1e9;
+
 /// Puts the axis's observer there, for k and the axis's own D and d as they are. False where the states do not say.
 pub(super) fn seed(axis: &mut Axis, k: f32, model: &DragModel, clock: &Clock, common: &Common) -> bool {
     let (at, unit, velocity) = (&clock.at, &clock.unit, &clock.velocity_at);
@@ -22,7 +25,7 @@ pub(super) fn seed(axis: &mut Axis, k: f32, model: &DragModel, clock: &Clock, co
     let once = k * cascade.x6.value() + drift * unit.u3.value() - drag * v.v3.value() - cascade.x3.value();
     let step = (once - weight * position) / (at.slope * (1.0 - half_t * drag));
     let t_velocity = model.velocity_after(step, axis.moments);
-    let sound = position.is_finite() && t_velocity.is_finite();
+    let sound = position.abs() <= LARGEST && t_velocity.abs() <= LARGEST;
     if sound {
         let residual = (axis.observer.state().measurement() - axis.origin) - position;
         axis.observer.seed(residual, t_velocity, &clock.gains);

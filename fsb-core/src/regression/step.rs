@@ -66,7 +66,7 @@ impl<const N: usize> DragEstimator<N> {
             clock.advance(common);
         }
         clock.weigh(common);
-        for (axis, y) in axes.iter_mut().zip(positions) {
+        for ((axis, y), index) in axes.iter_mut().zip(positions).zip(0..) {
             let mut y = y.unwrap_or(f32::NAN);
             axis.repair(&mut y, m1, clock, common);
             if clock.started {
@@ -75,7 +75,7 @@ impl<const N: usize> DragEstimator<N> {
             if axis.present {
                 axis.identify(y, clock, common);
             }
-            if clock.is_folding() {
+            if clock.folds(index) {
                 axis.fold();
             }
         }
@@ -108,10 +108,11 @@ impl<const N: usize> DragEstimator<N> {
         let share = periods as f32 * common.substep_share;
         let mut repaired = *inputs;
         for (f, axis) in repaired.iter_mut().zip(axes) {
-            if !(f.abs() <= common.input_limit) {
-                counters.rejected_inputs = counters.rejected_inputs.saturating_add(1);
-                *f = axis.moments.j1 / share;
+            if f.abs() <= common.input_limit {
+                continue;
             }
+            counters.rejected_inputs = counters.rejected_inputs.saturating_add(1);
+            *f = axis.moments.j1 / share;
         }
         repaired
     }

@@ -11,14 +11,13 @@
 
 use super::axis::{Axis, Columns, Source};
 use super::clock::Clock;
+use super::config::Identify;
 use super::design::{Common, items};
 use super::model::DragModel;
 use super::pooled::{Pooled, read};
+use super::reduced::Estimate;
 use super::seed::seed;
-use super::triangle::Estimate;
 
-/// ẑv has a part of its own where more of its energy than this is not a constant's: above what rounding leaves.
-const OWN_SHARE: f32 = 1e-6;
 /// The square of two thirds: how far the excitation may fall before a column that is used no longer is.
 const EXCITATION_STAYS: f32 = 4.0 / 9.0;
 /// Twice the standard deviation, likewise.
@@ -47,7 +46,7 @@ fn one(item: usize, axes: &mut [Axis], pooled: &mut Pooled, clock: &Clock, commo
         }
     } else if item <= 2 * n {
         if let Some(axis) = axes.get_mut(item - n - 1) {
-            axis.choose(pooled.trial, n as f32, common);
+            axis.choose(pooled.trial, common);
         }
     } else if let Some(axis) = axes.get_mut(item - 2 * n - 2) {
         axis.settle(pooled, clock, common);
@@ -57,55 +56,64 @@ fn one(item: usize, axes: &mut [Axis], pooled: &mut Pooled, clock: &Clock, commo
 impl Axis {
     /// The columns that may take part: asked for, with a part of their own, on an axis excited beyond hover.
     fn nominate(&mut self, pooled: &Pooled, common: &Common) {
-        let asked = self.own.identify;
-        let rows = self.triangle.rows();
-        let moving = self.triangle.motion_share() > OWN_SHARE;
-        let drag = asked.drag && moving;
-        let with_all = self.triangle.keep(asked.disturbance, drag);
+        let Identify { drag, disturbance } = self.own.identify;
+        let asked = Columns { drag: drag && self.triangle.is_moving(), disturbance };
         let k = pooled.newest().value;
-        let excitation2 = k * k * with_all.information() / rows;
+        let information = self.triangle.keep(asked.disturbance, asked.drag, common.row_rate2).information();
+        let excitation2 = k * k * (information / self.triangle.constant());
         let stays = if self.used.count() > 0.0 { EXCITATION_STAYS } else { 1.0 };
         let excited = excitation2 >= stays * common.excitation2;
-        self.keep(Columns { drag: drag && excited, disturbance: asked.disturbance && excited });
+        // More independent rows than unknowns, or the residual says nothing.
+        let enough = self.rows(common) > common.colour * (asked.count() + 1.0);
+        self.keep(if excited && enough { asked } else { Columns::default() }, common);
     }
 
     /// Drops, worst first, what k as it is known with all candidates cannot tell.
-    fn choose(&mut self, k: Estimate, sharing: f32, common: &Common) {
+    fn choose(&mut self, k: Estimate, common: &Common) {
         let mut kept = self.columns;
-        self.weigh(k.value, sharing, common);
+        self.weigh(k.value, common);
         while kept.count() > 0.0 {
             let (drag, disturbance) = self.terms(k);
-            let drag_excess = if kept.drag { excess(&drag, common.drag_variance, self.used.drag) } else { 0.0 };
-            let disturbance_excess = if kept.disturbance {
-                excess(&disturbance, common.disturbance_variance, self.used.disturbance)
-            } else {
-                0.0
+            let drag_excess = match kept.drag {
+                true if is_slight(&drag, common) => excess(&drag, common.drag_variance, self.used.drag),
+                true => f32::MAX,
+                false => 0.0,
             };
-            let steep = kept.drag && !(drag.value.abs() * common.period <= DragModel::LARGEST_DELTA);
-            if drag_excess <= 1.0 && disturbance_excess <= 1.0 && !steep {
+            let disturbance_excess = match kept.disturbance {
+                true if is_gentle(&disturbance) => {
+                    excess(&disturbance, common.disturbance_variance, self.used.disturbance)
+                }
+                true => f32::MAX,
+                false => 0.0,
+            };
+            if drag_excess <= 1.0 && disturbance_excess <= 1.0 {
                 break;
             }
-            if steep || drag_excess >= disturbance_excess {
+            if drag_excess >= disturbance_excess {
                 kept.drag = false;
             } else {
                 kept.disturbance = false;
             }
-            self.keep(kept);
-            self.weigh(k.value, sharing, common);
+            self.keep(kept, common);
+            self.weigh(k.value, common);
         }
         self.used = kept;
     }
 
-    fn keep(&mut self, columns: Columns) {
+    fn keep(&mut self, columns: Columns, common: &Common) {
         self.columns = columns;
-        self.reduced = self.triangle.keep(columns.disturbance, columns.drag);
+        self.reduced = self.triangle.keep(columns.disturbance, columns.drag, common.row_rate2);
     }
 
-    /// What the variance of the residual is worth, for this k: rows are not independent, and what the unknowns have taken
-    /// does not count.
-    pub fn weigh(&mut self, k: f32, sharing: f32, common: &Common) {
-        let rows = self.triangle.rows() * common.per_scale2;
-        let worth = rows - common.colour * (self.columns.count() + 1.0 / sharing);
+    /// The rows taken in, as far as the window was open: the noise of ẑ2 grows faster with it than its signals do.
+    fn rows(&self, common: &Common) -> f32 {
+        self.triangle.opening() * common.per_scale
+    }
+
+    /// The variance of the residual for this k: rows are not independent, and those that the unknowns have taken do not
+    /// count.
+    pub fn weigh(&mut self, k: f32, common: &Common) {
+        let worth = self.rows(common) - common.colour * (self.columns.count() + self.share);
         let variance = common.colour * self.reduced.residual(k) / worth;
         self.row_variance = if worth > 0.0 && variance >= 0.0 { variance } else { f32::MAX };
     }
@@ -125,6 +133,10 @@ impl Axis {
     fn settle(&mut self, pooled: &Pooled, clock: &Clock, common: &Common) {
         let known = pooled.newest();
         (self.drag, self.disturbance) = self.terms(known);
+        if !(is_slight(&self.drag, common) && is_gentle(&self.disturbance)) {
+            // Another k than the one they were chosen with has thrown them off.
+            (self.drag, self.disturbance, self.used) = Default::default();
+        }
         let k = if let Some(k) = pooled.valid().map(|k| k.value) {
             let drift = self.own.drift + self.disturbance.value;
             let model = DragModel::new(k, self.drag.value, drift, &common.observer);
@@ -160,5 +172,15 @@ impl Axis {
 /// The variance over its limit; more than any limit where it is none.
 fn excess(estimate: &Estimate, limit: f32, used: bool) -> f32 {
     let share = estimate.variance / if used { VARIANCE_STAYS * limit } else { limit };
-    if estimate.value.is_finite() && share.is_finite() { share } else { f32::MAX }
+    if share.is_finite() { share } else { f32::MAX }
+}
+
+/// Whether D is one that the model holds for.
+fn is_slight(drag: &Estimate, common: &Common) -> bool {
+    drag.value.abs() * common.period <= DragModel::LARGEST_DELTA && drag.variance.is_finite()
+}
+
+/// Whether d is within what a known drift may be.
+fn is_gentle(disturbance: &Estimate) -> bool {
+    disturbance.value.abs() <= 1e6 && disturbance.variance.is_finite()
 }

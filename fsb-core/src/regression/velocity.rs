@@ -30,6 +30,7 @@ pub struct VelocityDesign {
     bv2: f32,
     opening_next: f32,
     opening: f32,
+    scale: f32,
 }
 
 impl VelocityDesign {
@@ -40,6 +41,11 @@ impl VelocityDesign {
     pub fn new(tuning: Tuning, period: f64) -> Result<Self, ConfigError> {
         let decay = tuning.decay(checked_period("period", period)?, "lambda", "q")?;
         Ok(Self::from_decay(&decay, f64::from(IdentifierDesign::from_decay(&decay).scale)))
+    }
+
+    /// The factor by which ẑv is larger than in physical units; the identifier's.
+    pub const fn scale(&self) -> f32 {
+        self.scale
     }
 
     pub(crate) fn from_decay(decay: &Decay, scale: f64) -> Self {
@@ -53,6 +59,7 @@ impl VelocityDesign {
             bv2: (2.0 * base * c / (p * p)) as f32,
             opening_next: opening as f32,
             opening: (opening / rho) as f32,
+            scale: scale as f32,
         }
     }
 }

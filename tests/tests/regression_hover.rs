@@ -1,0 +1,126 @@
+//! Hover: what cannot be told is not, and does not spoil what can.
+
+use fsb_core::regression::{DragConfig, DragEstimator, Term};
+use fsb_tests::drag_flight::{DRIFT, DragAxis, DragFlight, Flyer, Instant};
+use rand::SeedableRng;
+use rand_distr::{Distribution, Normal};
+use rand_pcg::Pcg64;
+
+const FLIGHT: DragFlight = DragFlight {
+    period: 0.01,
+    k: 1.0 / 1.3,
+    drag: [0.35, 0.5, 0.2],
+    disturbance: [0.3, -0.4, 0.25],
+    amplitude: [0.8, 0.6, 0.5],
+    noise: 0.0,
+    flutter: 0.0,
+};
+
+fn estimator(period: f64) -> DragEstimator<3> {
+    DragEstimator::new(&DragConfig { drift: DRIFT, ..DragConfig::new(period) }).expect("a valid configuration")
+}
+
+fn feed(estimator: &mut DragEstimator<3>, instant: &Instant) {
+    estimator.measure(&instant.measured.map(Some)).expect("in step");
+    estimator.apply(&instant.force);
+}
+
+fn fly(estimator: &mut DragEstimator<3>, flight: &DragFlight, seconds: f64, seed: u64) {
+    fly_on(estimator, &mut Flyer::new(flight), flight, seconds, &mut Pcg64::seed_from_u64(seed));
+}
+
+fn fly_on(estimator: &mut DragEstimator<3>, flyer: &mut Flyer, flight: &DragFlight, seconds: f64, rng: &mut Pcg64) {
+    for _ in 0..(seconds / flight.period) as usize {
+        feed(estimator, &flyer.step(flight, rng));
+    }
+}
+
+fn value(term: Term) -> f64 {
+    f64::from(term.value().expect("known"))
+}
+
+fn is_unknown(estimator: &DragEstimator<3>) -> bool {
+    estimator.terms().iter().all(|t| t.drag == Term::NotObservable && t.disturbance == Term::NotObservable)
+}
+
+/// Hover, without noise, with noise, and with a known force that flutters: k from gravity, and no D or d at any time.
+#[test]
+fn hover_tells_k_alone() {
+    for (noise, flutter) in [(0.0, 0.0), (0.002, 0.0), (0.002, 0.01)] {
+        let hover = DragFlight { amplitude: [0.0; 3], disturbance: [0.0; 3], noise, flutter, ..FLIGHT };
+        let mut estimator = estimator(hover.period);
+        let mut rng = Pcg64::seed_from_u64(2);
+        for instant in hover.fly(60.0, &mut rng) {
+            feed(&mut estimator, &instant);
+            assert!(is_unknown(&estimator), "{} s: {:?}", instant.t, estimator.terms());
+        }
+        let k = f64::from(estimator.parameter().expect("valid").value) / hover.k - 1.0;
+        println!("noise {noise} m, flutter {flutter} m/s²: k {k:.1e}");
+        assert!(k.abs() < 1e-3);
+    }
+}
+
+/// Two axes move, z hovers: theirs are known, its own are not, and k is right.
+#[test]
+fn an_axis_that_hovers_does_not_spoil_the_others() {
+    let flight = DragFlight { amplitude: [0.8, 0.6, 0.0], disturbance: [0.3, -0.4, 0.0], noise: 0.001, ..FLIGHT };
+    let mut estimator = estimator(flight.period);
+    fly(&mut estimator, &flight, 20.0, 3);
+    let [x, y, z] = estimator.terms();
+    println!("{x:?} {y:?} {z:?}");
+    assert_eq!([z.drag, z.disturbance], [Term::NotObservable; 2]);
+    for (i, terms) in [x, y].into_iter().enumerate() {
+        assert!(
+            (value(terms.drag) - flight.drag[i]).abs() < 2e-3
+                && (value(terms.disturbance) - flight.disturbance[i]).abs() < 2e-3
+        );
+    }
+    assert!((f64::from(estimator.parameter().expect("valid").value) / flight.k - 1.0).abs() < 1e-3);
+}
+
+/// What has been learnt in flight stays known in the hover after it.
+#[test]
+fn known_terms_stay_known() {
+    let mut estimator = estimator(FLIGHT.period);
+    let flight = DragFlight { noise: 0.001, ..FLIGHT };
+    let (mut flyer, mut rng) = (Flyer::new(&flight), Pcg64::seed_from_u64(4));
+    fly_on(&mut estimator, &mut flyer, &flight, 30.0, &mut rng);
+    let before = estimator.terms();
+    let hover = DragFlight { amplitude: [0.0; 3], ..flight };
+    fly_on(&mut estimator, &mut flyer, &hover, 120.0, &mut rng);
+    for (i, (terms, before)) in estimator.terms().into_iter().zip(before).enumerate() {
+        println!("{i}: {terms:?}, in flight {before:?}");
+        assert!((value(terms.drag) - FLIGHT.drag[i]).abs() < 0.01);
+        assert!((value(terms.disturbance) - FLIGHT.disturbance[i]).abs() < 0.01);
+    }
+}
+
+/// A hover that the law keeps on its noisy measurements: the force follows the noise, which looks like excitation at first
+/// sight.
+#[test]
+fn a_hover_on_noisy_measurements() {
+    for noise in [0.0005, 0.002, 0.01] {
+        let mut estimator = estimator(0.01);
+        let (mut rng, sensor) = (Pcg64::seed_from_u64(12), Normal::new(0.0, noise).expect("a standard deviation"));
+        let mut axes =
+            DRIFT.map(|acceleration| DragAxis { position: 0.0, velocity: 0.0, k: FLIGHT.k, drag: 0.3, acceleration });
+        let (mut before, mut rate) = ([0.0; 3], [0.0; 3]);
+        let mut effort = 0.0_f64;
+        for n in 0..6000 {
+            let measured = axes.map(|a| (a.position + sensor.sample(&mut rng)) as f32);
+            let force = [0, 1, 2].map(|i| {
+                let y = f64::from(measured[i]);
+                rate[i] += 0.3 * ((y - before[i]) / 0.01 - rate[i]);
+                before[i] = y;
+                ((-6.0 * y - 4.0 * rate[i] - DRIFT[i]) / FLIGHT.k) as f32
+            });
+            effort += (f64::from(force[0]) * FLIGHT.k).powi(2) / 6000.0;
+            feed(&mut estimator, &Instant { t: f64::from(n) * 0.01, measured, velocity: [0.0; 3], force });
+            axes.iter_mut().zip(force).for_each(|(axis, f)| axis.step(f64::from(f), 0.01));
+            assert!(is_unknown(&estimator), "{n}: {:?}", estimator.terms());
+        }
+        let k = f64::from(estimator.parameter().expect("valid").value) / FLIGHT.k - 1.0;
+        println!("noise {noise} m, {:.2} m/s² of x by it: k {k:.1e}", effort.sqrt());
+        assert!(k.abs() < 1e-4);
+    }
+}
