@@ -24,6 +24,15 @@ pub struct AxisTrace {
     pub innovation: Vec<Option<f32>>,
 }
 
+impl AxisTrace {
+    /// Without the states of the first `samples` from the first one on.
+    pub(super) fn after(&self, samples: usize) -> Self {
+        let from = self.state.iter().position(Option::is_some).unwrap_or(0) + samples;
+        let state = self.state.iter().enumerate().map(|(n, state)| state.filter(|_| n >= from)).collect();
+        Self { state, innovation: self.innovation.clone() }
+    }
+}
+
 /// What was read out for one parameter, per sample.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ParameterTrace {

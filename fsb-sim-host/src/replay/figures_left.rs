@@ -125,11 +125,15 @@ pub(super) fn velocities(compared: &[Velocities], result: &ReplayResult, log: &A
             };
             let ours = |n: usize| axis.trace.state.get(n).copied().flatten().map(|s| f64::from(s.velocity));
             let all = 0..log.len();
-            let series = vec![
+            let mut series = vec![
                 Series::line("differences", Role::Measured, all.clone().map(|n| error(n, of.differences[n]))),
                 Series::line("Kalman filter", Role::Rival, all.clone().map(|n| error(n, of.kalman[n]))),
-                Series::line("observer", Role::Core, all.map(|n| error(n, ours(n)))),
+                Series::line("observer on the way", Role::Core, all.clone().map(|n| error(n, ours(n)))),
             ];
+            if !of.informed.is_empty() {
+                let knowing = |n: usize| of.informed.get(n).copied().flatten();
+                series.push(Series::line("observer that knows k, D, d", Role::Truth, all.map(|n| error(n, knowing(n)))));
+            }
             let what = if reference.is_some() { "error" } else { "velocity" };
             Some(Panel::new("", &format!("{what} of {} [m/s]", of.axis.name()), series))
         })

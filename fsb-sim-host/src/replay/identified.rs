@@ -1,6 +1,7 @@
 //! k, drag and disturbance identified together by the core, sample by sample.
 
 use super::feed::{AxisTrace, Column, ParameterTrace, Watch, f32_line};
+use super::informed::observe;
 use super::options::{LIMIT, ReplayOptions};
 use fsb_core::ConfigError;
 use fsb_core::regression::{AxisTerms, DragConfig, DragEstimator, Identify};
@@ -14,6 +15,9 @@ pub struct Identified {
     pub terms: Vec<Vec<AxisTerms>>,
     /// Positions and velocities that the observer hands out: predicted with what is identified.
     pub axes: Vec<AxisTrace>,
+    /// The same by an observer that knows from the first sample on what the whole flight tells; empty where k is not valid at
+    /// the end.
+    pub informed: Vec<AxisTrace>,
     /// ẑ2 - k ẑ0 + D ẑv - d ẑu of each axis with the values at the end \[m/s²\]; `None` before the identifier has started.
     pub residual: Vec<Vec<Option<f64>>>,
 }
@@ -65,6 +69,7 @@ pub(super) fn identify<const N: usize>(
         parameter: ParameterTrace { value: vec![None; samples], ..ParameterTrace::default() },
         terms: vec![vec![AxisTerms::default(); samples]; N],
         axes: vec![AxisTrace { state: vec![None; samples], innovation: vec![None; samples] }; N],
+        informed: Vec::new(),
         residual: vec![vec![None; samples]; N],
     };
     let mut signals = Vec::with_capacity(samples);
@@ -89,6 +94,7 @@ pub(super) fn identify<const N: usize>(
     if let Some(k) = found.parameter.last() {
         for i in 0..N {
             let last = found.last(i);
+            found.informed.push(observe(options.observer, period, &columns[i], start, (k.value, last, drift[i]))?);
             let value = |term: Option<f32>| term.map_or(0.0, f64::from);
             let (drag, disturbance) = (value(last.drag.value()), value(last.disturbance.value()));
             // The window is shut in the first two samples.

@@ -19,7 +19,7 @@
 //! | `lag`, `fit` | the time offset of the input, by a regression in f64 |
 //! | `options` | what can be set, and the core's configuration that follows |
 //! | `feed` | a group of axes through one estimator, sample by sample |
-//! | `identified` | the same with drag and disturbance |
+//! | `identified`, `informed` | the same with drag and disturbance, on the way and with what the whole flight tells |
 //! | `result` | the whole replay, and what came out |
 //! | `summary` | the same as one JSON object |
 //! | `overview` | the same as a table |
@@ -37,6 +37,7 @@ mod figures_left;
 pub mod fit;
 pub mod flight;
 pub mod identified;
+mod informed;
 pub mod lag;
 pub mod log;
 pub mod options;

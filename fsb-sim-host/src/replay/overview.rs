@@ -28,9 +28,13 @@ pub fn table(result: &ReplayResult) -> Table {
     for axis in result.rotational() {
         table.push(row(&format!("inertia {}", about(axis)), axis.axis.name(), &axis.own, "kg m²", Some(axis)));
     }
+    let informed = match result.axes.iter().any(|axis| axis.velocity_rms_error_on_the_way.is_some()) {
+        true => " It is that of an observer that knows from the first sample on what is identified at the end, its window open.",
+        false => "",
+    };
     table.with_note(&format!(
         "{} samples {} s apart, {} positions missing. sd: as far as measurement noise causes it. Velocity [m/s or rad/s]: of the estimate (x, y, z with the pooled mass) \
-         against the reference of the log.",
+         against the reference of the log.{informed}",
         result.samples, result.period, result.missed
     ))
 }

@@ -52,7 +52,7 @@ pub fn files(
         })
         .collect();
     remains.extend(left::correlations(&judged, log.period).map(|chart| ("whiteness", chart)));
-    let compared = compare(result, log, options.gravity);
+    let compared = compare(result, log, options.gravity, options.observer.lambda);
     let beside = left::velocities(&compared, result, log).map(|chart| ("other_velocities", chart));
     let filtered = rows(log, options.identifier, options.gravity);
     let excitation = k.and_then(|k| left::excitation(&filtered, k, log)).map(|chart| ("excitation", chart));
@@ -106,21 +106,23 @@ fn errors(compared: &[Velocities]) -> Option<Table> {
     let columns = vec![
         Column::left("axis"),
         Column::right("noise of the position, sd [m]"),
-        Column::right("observer, rms [m/s]"),
+        Column::right("observer on the way, rms [m/s]"),
+        Column::right("observer that knows k, D, d, rms [m/s]"),
         Column::right("Kalman filter, rms [m/s]"),
         Column::right("differences, rms [m/s]"),
-        Column::right("its process noise [m²/s³]"),
+        Column::right("process noise of the filter [m²/s³]"),
     ];
     let mut table = Table::new("Errors against the reference of the log", columns);
     for of in compared {
-        let errors = of.rms.map_or([f64::NAN; 3], |rms| rms);
+        let errors = of.rms.unwrap_or([f64::NAN; 4]);
         let mut row = vec![Cell::text(of.axis.name()), Cell::significant(of.noise_sd, 2)];
         row.extend(errors.map(|error| Cell::significant(error, 3)));
         row.push(Cell::significant(of.filter.process, 2));
         table.push(row);
     }
     let note = "The Kalman filter knows the input, the k at the end of the flight and the noise of the position; its process noise is the one under \
-                which the innovations of this very flight are most likely. The observer had to find k on the way. All at the same samples.";
+                which the innovations of this very flight are most likely. The observer on the way had to find k, and with it D and d where asked for; the other one knows from the first sample on what the \
+                flight tells. All at the same samples, from 10/λ of the observer on.";
     (!compared.is_empty()).then(|| table.with_note(note))
 }
 

@@ -27,6 +27,9 @@ pub struct ReplayResult {
     pub identified: Option<Identified>,
 }
 
+/// The window of an observer has opened after this over its λ: its noise is that of the steady state by then.
+pub const OPENED: f64 = 10.0;
+
 /// One axis of a replay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisResult {
@@ -36,8 +39,12 @@ pub struct AxisResult {
     pub trace: AxisTrace,
     /// k̂ from this axis alone \[1/kg or 1/(kg m²)\].
     pub own: ParameterTrace,
-    /// Root mean square of v̂ minus the log's reference where both exist \[m/s or rad/s\]; `None` where they never do.
+    /// Root mean square of v̂ minus the log's reference where both exist \[m/s or rad/s\]; `None` where they never do. Where
+    /// drag or disturbance is identified it is that of the observer that knows from the first sample on what the whole flight tells, from
+    /// [`OPENED`]/λ of the observer after its first measurement on.
     pub velocity_rms_error: Option<f64>,
+    /// The same of `trace`, where drag or disturbance is identified on the way.
+    pub velocity_rms_error_on_the_way: Option<f64>,
 }
 
 impl ReplayResult {
@@ -78,16 +85,27 @@ pub fn run_watched(options: &ReplayOptions, log: &AxisLog, watch: Watch<'_>) -> 
         let mut pooled = replay_group(options, log.period, &translational, true, watch)?;
         let own = replay_group(options, log.period, &translational, false, watch)?;
         result.mass = pooled.parameters.pop();
+        let mut informed = false;
         if let Some(identify) = options.identify {
             let identified = identify_group(options, log.period, &translational, watch)?;
             // The model with more in it has the say, of k as of the velocities.
             if identify != Identify::NOTHING_ELSE {
                 result.mass = Some(identified.parameter.clone());
                 pooled.axes.clone_from(&identified.axes);
+                informed = true;
             }
             result.identified = Some(identified);
         }
         result.take(&translational, pooled, own.parameters);
+        if let Some(identified) = result.identified.as_ref().filter(|_| informed) {
+            let opened = (OPENED / (options.observer.lambda * log.period)).ceil() as usize;
+            let of_axes = result.axes.iter_mut().zip(&translational).zip(&identified.informed);
+            for ((axis, column), informed) in of_axes {
+                axis.velocity_rms_error_on_the_way = axis.velocity_rms_error;
+                let reference = column.velocity_reference.as_deref();
+                axis.velocity_rms_error = velocity_rms_error(&informed.after(opened), reference);
+            }
+        }
     }
     if !rotational.is_empty() {
         let mut each = replay_group(options, log.period, &rotational, false, watch)?;
@@ -102,7 +120,7 @@ impl ReplayResult {
         self.rejected += trace.rejected_measurements as usize + trace.rejected_inputs as usize;
         for ((axis, trace), own) in axes.iter().zip(trace.axes).zip(own) {
             let velocity_rms_error = velocity_rms_error(&trace, axis.velocity_reference.as_deref());
-            self.axes.push(AxisResult { axis: axis.axis, trace, own, velocity_rms_error });
+            self.axes.push(AxisResult { axis: axis.axis, trace, own, velocity_rms_error, velocity_rms_error_on_the_way: None });
         }
     }
 }

@@ -80,6 +80,9 @@ pub struct TermsSummary {
     pub disturbance_sd: Option<f32>,
     /// Whether it was asked for and the data tell.
     pub disturbance_observable: bool,
+    /// As `velocity_rms_error`, of what the observer handed out on the way, while k, D and d became known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub velocity_rms_error_on_the_way: Option<f64>,
 }
 
 impl From<AxisTerms> for TermsSummary {
@@ -90,7 +93,15 @@ impl From<AxisTerms> for TermsSummary {
         };
         let (drag, drag_sd, drag_observable) = split(terms.drag);
         let (disturbance, disturbance_sd, disturbance_observable) = split(terms.disturbance);
-        Self { drag, drag_sd, drag_observable, disturbance, disturbance_sd, disturbance_observable }
+        Self {
+            drag,
+            drag_sd,
+            drag_observable,
+            disturbance,
+            disturbance_sd,
+            disturbance_observable,
+            velocity_rms_error_on_the_way: None,
+        }
     }
 }
 
@@ -169,8 +180,10 @@ impl From<&ReplayResult> for Summary {
             result.axes.iter().map(|a| (a.axis.name(), a.into())).collect();
         if let Some(identified) = &result.identified {
             let translational = axes.iter_mut().zip(&result.axes).filter(|(_, a)| a.axis.is_translation());
-            for (i, ((_, axis), _)) in translational.enumerate() {
-                axis.terms = Some(identified.last(i).into());
+            for (i, ((_, axis), found)) in translational.enumerate() {
+                let on_the_way = found.velocity_rms_error_on_the_way;
+                let terms = TermsSummary::from(identified.last(i));
+                axis.terms = Some(TermsSummary { velocity_rms_error_on_the_way: on_the_way, ..terms });
             }
         }
         Self {
