@@ -63,7 +63,8 @@ fn mass_to_2e_5_from_irregular_files() {
 
 #[test]
 fn drag_and_disturbance_are_told() {
-    let vehicle = Vehicle { drag: [0.4, 0.3, 0.5], disturbance: [0.1, -0.15, 0.05], seconds: 20.0, ..Vehicle::default() };
+    let vehicle =
+        Vehicle { drag: [0.4, 0.3, 0.5], disturbance: [0.1, -0.15, 0.05], seconds: 20.0, ..Vehicle::default() };
     let (json, _) = json(&vehicle, &["--identify", "k,drag,disturbance"]);
     assert_near(&json["mass"]["value"], 1.3, 3e-3 * 1.3);
     for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
@@ -160,7 +161,8 @@ fn a_normalised_thrust_gives_a_hover_thrust() {
     assert_near(&json["hover_thrust"]["value"], 1.3 * vehicle::GRAVITY, 2e-5 * 1.3 * vehicle::GRAVITY);
     assert_eq!((&json["hover_thrust"]["valid"], &json["hover_thrust"]["px4"]), (&true.into(), &Value::Null));
     let page = fs::read_to_string(directory.path().join("out/report.html")).unwrap();
-    for part in ["Hover thrust", "What is left of the accelerations", "Kalman filter", "Excitation", "Innovations of x"] {
+    for part in ["Hover thrust", "What is left of the accelerations", "Kalman filter", "Excitation", "Innovations of x"]
+    {
         assert!(page.contains(part), "{part}");
     }
     for loaded in ["src=", "href=\"http", "@import", "url("] {
@@ -188,7 +190,10 @@ fn bad_input_is_named_and_nothing_is_written() {
     let no_number = motion.replacen("\n0.0", "\n0.0x", 1);
     let backwards = format!("{input}0.1,13,7\n");
     let short = input.lines().take(3).collect::<Vec<_>>().join("\n");
-    let elsewhere: String = input.lines().map(|line| if line.starts_with('t') { line.to_owned() } else { format!("9{line}") } + "\n").collect();
+    let elsewhere: String = input
+        .lines()
+        .map(|line| if line.starts_with('t') { line.to_owned() } else { format!("9{line}") } + "\n")
+        .collect();
     let last = input.lines().count() + 1;
     let turned = motion.replacen("\n", "\n0.0001,0,0,0,2,0,0,0,0,0,0\n", 1);
     let cases: [(&str, &str, &[&str], &str); 10] = [

@@ -98,7 +98,11 @@ fn velocity_noise_while_the_window_opens_within_10_percent() {
         let sd = (here.iter().sum::<f64>() / here.len() as f64).sqrt();
         let expected = predicted[look as usize - 1].1;
         println!("sample {look}: predicted {expected:.4}, {} flights {sd:.4} m/s", here.len());
-        assert!((sd / expected - 1.0).abs() < 0.1, "sample {look}, seeds 0 to {}: {sd} against {expected}", 2 * RUNS - 1);
+        assert!(
+            (sd / expected - 1.0).abs() < 0.1,
+            "sample {look}, seeds 0 to {}: {sd} against {expected}",
+            2 * RUNS - 1
+        );
     }
 }
 
@@ -131,7 +135,10 @@ fn sd_of_k_within_25_percent() {
             let here: Vec<f64> = errors.iter().filter(|(n, _)| *n == look).map(|(_, e)| e * e).collect();
             let sd = (here.iter().sum::<f64>() / here.len() as f64).sqrt();
             let (expected, t) = (predicted[look as usize], look as f64 / rate);
-            println!("{rate} Hz, λ = {lambda}, {excitation:?}, {t} s: predicted {expected:.3e}, {} flights {sd:.3e}", here.len());
+            println!(
+                "{rate} Hz, λ = {lambda}, {excitation:?}, {t} s: predicted {expected:.3e}, {} flights {sd:.3e}",
+                here.len()
+            );
             assert!((sd / expected - 1.0).abs() < 0.25, "seeds 0 to {}: {sd} against {expected}", RUNS - 1);
         }
     }

@@ -1,7 +1,7 @@
 //! `fsb replay`: the parameters and velocities that a recorded flight tells.
 
-use super::{Failure, print_json, print_text};
 use super::source::{self, Content};
+use super::{Failure, print_json, print_text};
 use clap::{Parser, ValueEnum};
 use fsb_core::Tuning;
 use fsb_core::readout::{Memory, Readout};

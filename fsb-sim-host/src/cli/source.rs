@@ -96,7 +96,9 @@ impl Files {
     /// Reads the files.
     pub fn source(&self) -> Result<Source<'_>, Failure> {
         let content = match (&self.log, &self.motion, &self.input) {
-            (Some(log), ..) if is_ulog(log) => Content::Flight(Box::new(ulog::read(log, self.full_thrust).map_err(refuse)?)),
+            (Some(log), ..) if is_ulog(log) => {
+                Content::Flight(Box::new(ulog::read(log, self.full_thrust).map_err(refuse)?))
+            }
             (Some(log), ..) => {
                 if self.full_thrust.is_some() {
                     return Err(Failure::Usage(format!("--full-thrust: {} is an axis log, in newtons", log.display())));
@@ -128,7 +130,9 @@ impl Files {
     /// The files for the line that a page repeats: their names, not where they lie.
     pub fn command(&self) -> String {
         let name = |path: &Option<PathBuf>| {
-            path.as_deref().and_then(Path::file_name).map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+            path.as_deref()
+                .and_then(Path::file_name)
+                .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
         };
         match &self.log {
             Some(_) => name(&self.log),

@@ -119,11 +119,13 @@ pub fn run(args: &Args) -> Result<ExitCode, Failure> {
         return Err(Failure::Usage(format!("--k-within {}: must be at most 100 %", args.k_within)));
     }
     let sensor = Sensor { noise_sd, period };
-    let excitation =
-        Excitation { gravity: args.gravity, acceleration: args.acceleration, frequency: args.frequency };
+    let excitation = Excitation { gravity: args.gravity, acceleration: args.acceleration, frequency: args.frequency };
     if args.acceleration > 0.0 && args.frequency * period > 0.5 {
         let rate = 1.0 / period;
-        return Err(Failure::Usage(format!("--frequency {}: must be at most half the rate, {rate} Hz", args.frequency)));
+        return Err(Failure::Usage(format!(
+            "--frequency {}: must be at most half the rate, {rate} Hz",
+            args.frequency
+        )));
     }
     let proposal = propose(sensor, args.wish(period), excitation, args.k_within / 100.0)
         .map_err(|error| Failure::Usage(error.to_string()))?;
@@ -145,7 +147,10 @@ fn from_log(path: &std::path::Path, args: &Args) -> Result<LogSensor, Failure> {
     let files = Files::of(path);
     let recording = files.source()?.recording(&options)?;
     sensor(&recording, args.gravity).ok_or_else(|| {
-        Failure::Usage(format!("{}: its noise cannot be measured: too few positions in a row, or no k in it", path.display()))
+        Failure::Usage(format!(
+            "{}: its noise cannot be measured: too few positions in a row, or no k in it",
+            path.display()
+        ))
     })
 }
 
@@ -160,7 +165,11 @@ fn json(of: &Proposal, measured: Option<&LogSensor>) -> Json {
         bandwidth_hz: of.bandwidth,
         delay_s: of.delay,
         k_within_percent: 100.0 * of.k_within,
-        k_sd: of.spread(of.identifier, &TIMES).into_iter().map(|(t, sd)| JsonSpread { t, percent: 100.0 * sd }).collect(),
+        k_sd: of
+            .spread(of.identifier, &TIMES)
+            .into_iter()
+            .map(|(t, sd)| JsonSpread { t, percent: 100.0 * sd })
+            .collect(),
         log_noise_sd: measured.map(|log| log.axes.iter().map(|(axis, sd)| (axis.name(), *sd)).collect()),
     }
 }

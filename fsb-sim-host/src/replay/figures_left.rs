@@ -40,7 +40,8 @@ pub(super) fn hover(result: &ReplayResult, recording: &Recording, gravity: f64) 
     }
     let mut panel = Panel::new("t [s]", "share of the full thrust", series);
     panel.x_range = Some((log.time(0), log.time(log.len() - 1)));
-    let caption = "The thrust that hovers, from k; beside it the flight controller's own estimate, where the log has one.";
+    let caption =
+        "The thrust that hovers, from k; beside it the flight controller's own estimate, where the log has one.";
     Some(Chart::new("Hover thrust", caption, vec![panel]))
 }
 
@@ -120,9 +121,8 @@ pub(super) fn velocities(compared: &[Velocities], result: &ReplayResult, log: &A
             let axis = result.axes.iter().find(|axis| axis.axis == of.axis)?;
             let reference = column.velocity_reference.as_ref();
             let minus = |n: usize| reference.map_or(Some(0.0), |all| all.get(n).copied().flatten());
-            let error = |n: usize, v: Option<f64>| {
-                (log.time(n), v.zip(minus(n)).map_or(f64::NAN, |(v, truth)| v - truth))
-            };
+            let error =
+                |n: usize, v: Option<f64>| (log.time(n), v.zip(minus(n)).map_or(f64::NAN, |(v, truth)| v - truth));
             let ours = |n: usize| axis.trace.state.get(n).copied().flatten().map(|s| f64::from(s.velocity));
             let all = 0..log.len();
             let mut series = vec![
@@ -132,7 +132,11 @@ pub(super) fn velocities(compared: &[Velocities], result: &ReplayResult, log: &A
             ];
             if !of.informed.is_empty() {
                 let knowing = |n: usize| of.informed.get(n).copied().flatten();
-                series.push(Series::line("observer that knows k, D, d", Role::Truth, all.map(|n| error(n, knowing(n)))));
+                series.push(Series::line(
+                    "observer that knows k, D, d",
+                    Role::Truth,
+                    all.map(|n| error(n, knowing(n))),
+                ));
             }
             let what = if reference.is_some() { "error" } else { "velocity" };
             Some(Panel::new("", &format!("{what} of {} [m/s]", of.axis.name()), series))

@@ -182,8 +182,7 @@ mod tests {
     #[test]
     fn a_small_system() {
         // x = (1, -2, 0): the third column is zero and counts as not to be told.
-        let solution =
-            solve(vec![vec![4.0, 1.0, 0.0, 2.0], vec![1.0, 3.0, 0.0, -5.0], vec![0.0; 4]]).unwrap();
+        let solution = solve(vec![vec![4.0, 1.0, 0.0, 2.0], vec![1.0, 3.0, 0.0, -5.0], vec![0.0; 4]]).unwrap();
         assert!((solution[0] - 1.0).abs() < 1e-14 && (solution[1] + 2.0).abs() < 1e-14 && solution[2] == 0.0);
         assert!(solve(vec![vec![0.0, 0.0]]).is_none());
     }

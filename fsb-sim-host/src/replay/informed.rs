@@ -46,8 +46,7 @@ pub(super) fn observe(
         observer.correct(y, moments, &model, m1, gains.t_l2());
         observer.fold();
         let state = observer.state();
-        trace.state[n] =
-            Some(AxisState { position: state.position(0.0, &gains), velocity: state.velocity(&design) });
+        trace.state[n] = Some(AxisState { position: state.position(0.0, &gains), velocity: state.velocity(&design) });
         trace.innovation[n] = measured.map(|_| state.innovation());
     }
     Ok(trace)

@@ -115,8 +115,10 @@ mod tests {
 
     #[test]
     fn the_bottom_of_a_valley() {
-        let scan: Vec<(f64, f64)> =
-            (-20..=20).map(|i| 0.001 * f64::from(i)).map(|x| (x, (2.0 + 300.0 * (x - 0.0034).powi(2)).sqrt())).collect();
+        let scan: Vec<(f64, f64)> = (-20..=20)
+            .map(|i| 0.001 * f64::from(i))
+            .map(|x| (x, (2.0 + 300.0 * (x - 0.0034).powi(2)).sqrt()))
+            .collect();
         assert!((parabola(&scan) - 0.0034).abs() < 1e-9);
         assert_eq!(parabola(&[(0.0, 1.0), (0.1, 2.0)]), 0.0);
     }

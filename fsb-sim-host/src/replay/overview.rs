@@ -29,7 +29,9 @@ pub fn table(result: &ReplayResult) -> Table {
         table.push(row(&format!("inertia {}", about(axis)), axis.axis.name(), &axis.own, "kg m²", Some(axis)));
     }
     let informed = match result.axes.iter().any(|axis| axis.velocity_rms_error_on_the_way.is_some()) {
-        true => " It is that of an observer that knows from the first sample on what is identified at the end, its window open.",
+        true => {
+            " It is that of an observer that knows from the first sample on what is identified at the end, its window open."
+        }
         false => "",
     };
     table.with_note(&format!(
@@ -48,7 +50,9 @@ pub fn text(result: &ReplayResult, summary: &Summary) -> String {
     if let Some(hover) = &summary.hover_thrust {
         let known = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |value| format!("{value:.4}"));
         let (value, sd, own) = (known(hover.value), known(hover.sd), known(hover.px4));
-        text.push_str(&format!("\nhover thrust g/k {value} of the full thrust, sd {sd}; the flight controller's own: {own}\n"));
+        text.push_str(&format!(
+            "\nhover thrust g/k {value} of the full thrust, sd {sd}; the flight controller's own: {own}\n"
+        ));
     }
     text
 }
@@ -70,7 +74,9 @@ pub fn terms(summary: &Summary) -> Table {
         table.push([vec![Cell::text(name)], cells.into()].concat());
     }
     let left = summary.residual_rms.flatten().map_or_else(String::new, |rms| format!(" Left over: {rms:.4} m/s² rms."));
-    let lag = summary.lag_s.map_or_else(String::new, |lag| format!(" The input acts {:.1} ms after its time stamps.", 1e3 * lag));
+    let lag = summary
+        .lag_s
+        .map_or_else(String::new, |lag| format!(" The input acts {:.1} ms after its time stamps.", 1e3 * lag));
     table.with_note(&format!("No value: not asked for, or the data do not tell.{left}{lag}"))
 }
 

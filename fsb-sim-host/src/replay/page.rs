@@ -68,7 +68,11 @@ pub fn files(
         ("Parameters", Vec::new(), parameters),
         ("Signals", Vec::new(), signals),
         ("What is left", verdicts.collect(), remains),
-        ("Velocities side by side", errors(&compared).into_iter().map(Block::Table).collect(), beside.into_iter().collect()),
+        (
+            "Velocities side by side",
+            errors(&compared).into_iter().map(Block::Table).collect(),
+            beside.into_iter().collect(),
+        ),
         ("Excitation", Vec::new(), excitation.into_iter().collect()),
     ];
     let mut files = vec![("estimates.csv".to_owned(), to_csv(result, log))];
@@ -134,8 +138,11 @@ fn summary(result: &ReplayResult, whole: &Summary) -> String {
     if let Some(hover) = &whole.hover_thrust
         && let (Some(value), Some(sd)) = (hover.value, hover.sd)
     {
-        let own = hover.px4.map_or_else(String::new, |own| format!(" The flight controller's own estimate is {own:.4}."));
-        return format!("The vehicle hovers at {value:.4} of its full thrust, with a standard deviation of {sd:.1e} from measurement noise.{own}");
+        let own =
+            hover.px4.map_or_else(String::new, |own| format!(" The flight controller's own estimate is {own:.4}."));
+        return format!(
+            "The vehicle hovers at {value:.4} of its full thrust, with a standard deviation of {sd:.1e} from measurement noise.{own}"
+        );
     }
     match mass.last() {
         Some(k) => {

@@ -92,7 +92,10 @@ fn chosen(lag: Lag, search: Option<&FoundLag>, notices: &mut Vec<String>) -> f64
         (Lag::Given(lag), _) => lag,
         (Lag::Auto, Some(found)) => {
             if found.at_the_end {
-                notices.push(format!("the lag is at the end of its range, {:.3} s: the true one may lie beyond", found.lag));
+                notices.push(format!(
+                    "the lag is at the end of its range, {:.3} s: the true one may lie beyond",
+                    found.lag
+                ));
             }
             found.lag
         }

@@ -120,7 +120,13 @@ impl ReplayResult {
         self.rejected += trace.rejected_measurements as usize + trace.rejected_inputs as usize;
         for ((axis, trace), own) in axes.iter().zip(trace.axes).zip(own) {
             let velocity_rms_error = velocity_rms_error(&trace, axis.velocity_reference.as_deref());
-            self.axes.push(AxisResult { axis: axis.axis, trace, own, velocity_rms_error, velocity_rms_error_on_the_way: None });
+            self.axes.push(AxisResult {
+                axis: axis.axis,
+                trace,
+                own,
+                velocity_rms_error,
+                velocity_rms_error_on_the_way: None,
+            });
         }
     }
 }

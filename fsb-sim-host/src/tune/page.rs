@@ -26,10 +26,15 @@ pub fn table(of: &Proposal) -> Table {
     row("position, sd", of.position_sd, "m", "");
     row("bandwidth", of.bandwidth, "Hz", "for what the model does not know");
     row("delay", of.delay, "s", "for what the model does not know");
-    let waited = if of.parameter_settle.is_some() { String::new() } else { format!(" k is not that good within {LONGEST} s.") };
+    let waited =
+        if of.parameter_settle.is_some() { String::new() } else { format!(" k is not that good within {LONGEST} s.") };
     table.with_note(&format!(
         "Sensor: {:.4e} m of noise, every {} s. Input: gravity {} m/s², acceleration {} m/s² rms at {} Hz.{waited}",
-        of.sensor.noise_sd, of.sensor.period, of.excitation.gravity, of.excitation.acceleration, of.excitation.frequency
+        of.sensor.noise_sd,
+        of.sensor.period,
+        of.excitation.gravity,
+        of.excitation.acceleration,
+        of.excitation.frequency
     ))
 }
 
@@ -80,12 +85,10 @@ pub fn figures(of: &Proposal) -> Vec<(&'static str, Chart)> {
     let spread = Chart::new("Time to k", caption, vec![panel]);
 
     let line = opening::velocity_sd(&of.sensor, of.observer, 4.0 * of.state_settle.max(of.sensor.period));
-    let series = vec![
-        Series::line("sd", Role::Core, line),
-        Series::level("steady", Role::Reference, of.velocity_sd),
-    ];
+    let series = vec![Series::line("sd", Role::Core, line), Series::level("steady", Role::Reference, of.velocity_sd)];
     let panel = Panel { log_y: true, ..Panel::new("t [s]", "sd of the velocity [m/s]", series) };
-    let caption = "Noise of the velocity after the first measurement, k being known: no first guess, nothing to swing in.";
+    let caption =
+        "Noise of the velocity after the first measurement, k being known: no first guess, nothing to swing in.";
     let opening = Chart::new("The first moments", caption, vec![panel]);
     vec![("observer", trade), ("time_to_k", spread), ("opening", opening)]
 }

@@ -44,12 +44,7 @@ impl Chance {
 fn attitude(t: f64) -> [f64; 4] {
     let half = [0.25 * (1.3 * t).sin(), 0.2 * (0.9 * t + 1.0).cos(), 0.4 * (0.5 * t).sin()].map(|angle| angle / 2.0);
     let [(sr, cr), (sp, cp), (sy, cy)] = half.map(f64::sin_cos);
-    [
-        cr * cp * cy + sr * sp * sy,
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-    ]
+    [cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy]
 }
 
 /// The third column of the rotation matrix.

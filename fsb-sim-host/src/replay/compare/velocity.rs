@@ -42,7 +42,8 @@ pub fn compare(result: &ReplayResult, log: &AxisLog, gravity: f64, observer_lamb
         let filter = Kalman { k, drift, noise_variance, process: 1.0 }.tuned(log, column);
         let kalman = filter.filter(log, column).velocity;
         let first = std::iter::once(None);
-        let steps = column.position.windows(2).map(|pair| pair[1].zip(pair[0]).map(|(new, old)| (new - old) / log.period));
+        let steps =
+            column.position.windows(2).map(|pair| pair[1].zip(pair[0]).map(|(new, old)| (new - old) / log.period));
         let differences: Vec<Option<f64>> = first.chain(steps).collect();
         let of_axis = result.axes.iter().position(|other| other.axis == axis.axis);
         let told = axis.velocity_rms_error_on_the_way.and(result.identified.as_ref());

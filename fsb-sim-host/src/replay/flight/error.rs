@@ -34,6 +34,9 @@ pub enum FlightError {
     /// Too few rows.
     #[error("{file}: only {found} {what}, expected at least {expected}")]
     TooShort { file: String, what: &'static str, found: usize, expected: usize },
+    /// Positions so far apart that most of the time nothing was measured.
+    #[error("{file}: only {found} positions from {start} s to {end} s; is a time stamp wrong?")]
+    Sparse { file: String, found: usize, start: f64, end: f64 },
     /// A column name given on the command line or in a file of columns.
     #[error("{place}: {what}")]
     Columns { place: String, what: String },

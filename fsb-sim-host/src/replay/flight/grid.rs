@@ -22,6 +22,10 @@ use std::ops::Range;
 /// Measurements further apart than so many steps of the grid have a gap between them.
 pub const LARGEST_BRACKET: f64 = 2.5;
 
+/// Of so many instants of the grid at least one must have been measured: a time stamp gone wrong would otherwise make a log of
+/// any length.
+const SPARSEST: usize = 1000;
+
 /// Of the known input: which k and which drift c.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KnownMotion {
@@ -79,6 +83,9 @@ impl Flight {
         let samples = ((end - start) / step + 1e-6).floor() as usize + 1;
         if found < FEWEST_SAMPLES || samples < FEWEST_SAMPLES || step <= 0.0 {
             return Err(too_short(found.min(samples)));
+        }
+        if samples / SPARSEST > found {
+            return Err(FlightError::Sparse { file: file.to_owned(), found, start, end });
         }
         let response = self.response(lag);
         let mut columns = [Axis::X, Axis::Y, Axis::Z].map(|axis| {

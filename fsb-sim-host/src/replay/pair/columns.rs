@@ -106,7 +106,10 @@ impl Columns {
                     self.name(file, role, header)?;
                 }
                 other => {
-                    let what = format!("{key}: found a value of type {other}, expected the name of a column in quotation marks", other = other.type_str());
+                    let what = format!(
+                        "{key}: found a value of type {other}, expected the name of a column in quotation marks",
+                        other = other.type_str()
+                    );
                     return Err(FlightError::Columns { place: file.to_owned(), what });
                 }
             }

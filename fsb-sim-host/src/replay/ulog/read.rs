@@ -4,7 +4,9 @@ use super::frames::{to_attitude, to_body, to_world};
 use super::phases::{Flags, Signs, flight};
 use super::resets::resets;
 use super::store::{Store, Topic};
-use super::topics::{ALLOCATOR, ARMED, ATTITUDE, Chosen, HOVER, LAND, POSITION, WANTED, choose, need, need_field, thrust};
+use super::topics::{
+    ALLOCATOR, ARMED, ATTITUDE, Chosen, HOVER, LAND, POSITION, WANTED, choose, need, need_field, thrust,
+};
 use crate::replay::flight::quaternion::Quaternion;
 use crate::replay::flight::{AttitudeTrack, Flight, FlightError, HeldInput, HoverThrust, ThrustUnit};
 use std::path::Path;
@@ -31,7 +33,8 @@ pub fn read(path: &Path, full_thrust: Option<f64>) -> Result<Flight, FlightError
         clock.sampled(position.topic).into_iter().zip(down).map(|(t, z)| (t, -z)).filter(|p| p.1.is_finite()).collect();
     let times = clock.published(input.topic);
     let size = |f: &[f64; 3]| f.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let sizes: Vec<(f64, f64)> = times.iter().copied().zip(forces.iter().map(size)).filter(|p| p.1.is_finite()).collect();
+    let sizes: Vec<(f64, f64)> =
+        times.iter().copied().zip(forces.iter().map(size)).filter(|p| p.1.is_finite()).collect();
     let landed = clock.flags(&store, LAND, "landed");
     let armed = clock.flags(&store, ARMED, "armed");
     let signs = Signs { height: &heights, thrust: &sizes, landed: landed.as_ref(), armed: armed.as_ref() };

@@ -15,9 +15,11 @@ pub struct Reset {
 /// The resets within `samples`, by the counters and the amounts that PX4 logs beside the position.
 pub fn resets(topic: &Topic, samples: std::ops::Range<usize>) -> Vec<Reset> {
     let mut found = Vec::new();
-    for (axis, counter, amount) in
-        [(0, "xy_reset_counter", "delta_xy[0]"), (1, "xy_reset_counter", "delta_xy[1]"), (2, "z_reset_counter", "delta_z")]
-    {
+    for (axis, counter, amount) in [
+        (0, "xy_reset_counter", "delta_xy[0]"),
+        (1, "xy_reset_counter", "delta_xy[1]"),
+        (2, "z_reset_counter", "delta_z"),
+    ] {
         let (Some(counter), Some(amount)) = (topic.field(counter), topic.field(amount)) else { continue };
         for sample in samples.clone().skip(1) {
             let (Some(before), Some(now), Some(&size)) =

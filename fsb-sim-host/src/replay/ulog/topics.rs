@@ -58,7 +58,12 @@ pub fn choose<'a>(store: &'a Store, name: &'static str) -> Option<Chosen<'a>> {
 }
 
 /// As [`choose`], with the error that lists what there is.
-pub fn need<'a>(store: &'a Store, file: &str, what: &'static str, name: &'static str) -> Result<Chosen<'a>, FlightError> {
+pub fn need<'a>(
+    store: &'a Store,
+    file: &str,
+    what: &'static str,
+    name: &'static str,
+) -> Result<Chosen<'a>, FlightError> {
     choose(store, name).ok_or_else(|| FlightError::NoTopic {
         file: file.to_owned(),
         what,
@@ -68,7 +73,12 @@ pub fn need<'a>(store: &'a Store, file: &str, what: &'static str, name: &'static
 }
 
 /// A field that a chosen topic must have.
-pub fn need_field<'a>(chosen: &Chosen<'a>, file: &str, what: &'static str, field: &str) -> Result<&'a [f64], FlightError> {
+pub fn need_field<'a>(
+    chosen: &Chosen<'a>,
+    file: &str,
+    what: &'static str,
+    field: &str,
+) -> Result<&'a [f64], FlightError> {
     chosen.topic.field(field).ok_or_else(|| FlightError::NoTopic {
         file: file.to_owned(),
         what,
