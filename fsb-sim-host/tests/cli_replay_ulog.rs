@@ -95,7 +95,7 @@ impl Log {
                 log.data("vehicle_local_position", 0, t, &[&place[..], &[Byte(1), Byte(1), leapt, Byte(0)]].concat());
             }
             if every(0.5) {
-                let on_ground = !self.flies || t < LIFT_OFF - 0.8 || t > TOUCH_DOWN + 1.2;
+                let on_ground = !self.flies || !(LIFT_OFF - 0.8..=TOUCH_DOWN + 1.2).contains(&t);
                 log.data("vehicle_land_detected", 0, t, &[Byte(u8::from(on_ground))]);
                 log.data("actuator_armed", 0, t, &[Byte(u8::from(self.flies && t >= 0.5))]);
                 log.data("hover_thrust_estimate", 0, t, &[Float(0.425), Float(1e-6), Byte(u8::from(t > 6.0))]);

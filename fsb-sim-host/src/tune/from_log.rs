@@ -32,5 +32,5 @@ pub fn sensor(recording: &Recording, gravity: f64) -> Option<LogSensor> {
         })
         .collect();
     let noise_sd = axes.iter().map(|&(_, sd)| sd).fold(0.0, f64::max);
-    (noise_sd > 0.0).then(|| LogSensor { sensor: Sensor { noise_sd, period: log.period }, axes })
+    (noise_sd > 0.0).then_some(LogSensor { sensor: Sensor { noise_sd, period: log.period }, axes })
 }

@@ -16,11 +16,11 @@ const ORDERS: usize = 4;
 pub fn measured(log: &AxisLog, axis: &AxisColumn, k: f64, drift: f64) -> Option<f64> {
     let t = log.period;
     let mut rows: Vec<Option<f64>> = vec![None; axis.position.len()];
-    for n in 2..axis.position.len() {
+    for (n, row) in rows.iter_mut().enumerate().skip(2) {
         if let [Some(y2), Some(y1), Some(y0)] = axis.position[n - 2..=n] {
             let (older, newer) = (axis.moments(n - 2, t), axis.moments(n - 1, t));
             let s = newer.j2 - older.j2 + t * older.j1;
-            rows[n] = Some((y0 - y1) - (y1 - y2) - k * s - drift * t * t);
+            *row = Some((y0 - y1) - (y1 - y2) - k * s - drift * t * t);
         }
     }
     let (mut least, mut gain) = (f64::INFINITY, 6.0);

@@ -159,11 +159,11 @@ fn read_positions(
     let mut back = [0.0; 3];
     let mut left = resets(topic, begin..end).into_iter().peekable();
     let mut reference = Vec::new();
-    for n in begin..end {
+    for (n, &t) in times.iter().enumerate().take(end).skip(begin) {
         while let Some(reset) = left.next_if(|reset| reset.sample == n) {
             back[reset.axis] += reset.size;
             let axis = ["north", "east", "down"][reset.axis];
-            let (t, size) = (times[n], reset.size);
+            let size = reset.size;
             found.notices.push(format!(
                 "the on-board estimator reset the position at t = {t:.2} s, {axis} by {size:.2} m; taken back from there on"
             ));
@@ -171,8 +171,8 @@ fn read_positions(
         let position: [f64; 3] = std::array::from_fn(|i| field[i].get(n).map_or(f64::NAN, |y| y - back[i]));
         let usable = valid("z_valid", n) && (!horizontal || valid("xy_valid", n));
         let filled = if horizontal { position } else { [0.0, 0.0, position[2]] };
-        if usable && filled.iter().all(|y| y.is_finite()) && found.times.last().is_none_or(|&last| times[n] > last) {
-            found.times.push(times[n]);
+        if usable && filled.iter().all(|y| y.is_finite()) && found.times.last().is_none_or(|&last| t > last) {
+            found.times.push(t);
             found.position.push(to_world(filled));
             let velocity = ["vx", "vy", "vz"].map(|name| topic.field(name).and_then(|v| v.get(n)).copied());
             let known = velocity.map(|v| v.filter(|v| v.is_finite()).unwrap_or(f64::NAN));
