@@ -113,6 +113,24 @@ fn parabola(scan: &[(f64, f64)]) -> f64 {
 mod tests {
     use super::*;
 
+    /// A log that holds the acceleration of the beginning of each step where the mean is meant has its input half a step late: it is found to
+    /// act half a step before its stamps. Two sines on the axis, for with one alone an offset is the same as a drag.
+    #[test]
+    fn half_a_step_of_an_axis_log() {
+        for (period, rounding) in [(0.01, 1e-12), (0.01, 1e-4), (0.002, 1e-4)] {
+            let mut text = String::from("t,x,fx\n");
+            for n in 0..(20.0 / period) as usize {
+                let t = n as f64 * period;
+                let y = -1.2 * (1.1 * t).cos() - 0.1 * (3.0 * t).sin();
+                let acceleration = 1.2 * 1.21 * (1.1 * t).cos() + 0.9 * (3.0 * t).sin();
+                text += &format!("{t},{},{}\n", (y / rounding).round() * rounding, 0.7 * acceleration);
+            }
+            let log = AxisLog::from_reader("log", text.as_bytes()).unwrap();
+            let found = find(|lag| log.delayed(lag), 9.81, || {}).unwrap();
+            assert!((found.lag + period / 2.0).abs() < 1e-4 && !found.at_the_end, "{} at {period} s", found.lag);
+        }
+    }
+
     #[test]
     fn the_bottom_of_a_valley() {
         let scan: Vec<(f64, f64)> = (-20..=20)

@@ -143,3 +143,24 @@ impl Spread {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Long after the start a sine of its own is worth σ ω² √(T/t)/A, whatever λ is.
+    #[test]
+    fn in_the_long_run_it_is_noise_over_motion() {
+        let sensor = Sensor { noise_sd: 0.01, period: 0.01 };
+        let excitation = Excitation { gravity: 0.0, acceleration: 1.5, frequency: 0.5 };
+        for lambda in [1.0, 2.0, 6.0] {
+            let mut spread = Spread::new(sensor, Tuning::from_lambda(lambda), excitation);
+            let (mut t, mut sd) = (0.0, f64::NAN);
+            while t < 200.0 {
+                (t, sd) = spread.step();
+            }
+            let expected = 0.01 * (TAU * 0.5).powi(2) * (0.01 / t).sqrt() / 1.5;
+            assert!((sd / expected - 1.0).abs() < 0.03, "λ = {lambda}: {sd} against {expected}");
+        }
+    }
+}
