@@ -66,11 +66,9 @@ pub(super) fn terms(identified: &Identified, log: &AxisLog) -> Option<Chart> {
                 .collect();
             let band = values.iter().map(|&(t, value, sd)| (t, value - 2.0 * sd, value + 2.0 * sd));
             let line = values.iter().map(|&(t, value, _)| (t, value));
-            panels.push(Panel::new(
-                "",
-                &label,
-                vec![Series::band("± 2 sd", Role::Core, band), Series::line("identified", Role::Core, line)],
-            ));
+            let series = vec![Series::band("± 2 sd", Role::Core, band), Series::line("identified", Role::Core, line)];
+            let x_range = Some((log.time(0), log.time(log.len() - 1)));
+            panels.push(Panel { x_range, ..Panel::new("", &label, series) });
         }
     }
     let caption = "Linear drag and constant disturbance, and two standard deviations to either side. Nothing is drawn where the data \
@@ -104,7 +102,7 @@ pub(super) fn correlations(judged: &[(Axis, Whiteness)], period: f64) -> Option<
                 Series::band("measurement noise alone", Role::Reference, band),
                 Series::line("innovations", Role::Core, at(&white.correlation)),
             ];
-            Panel::new("lag [s]", axis.name(), series)
+            Panel::new("lag [s]", &format!("autocorrelation of {}", axis.name()), series)
         })
         .collect();
     let caption = "Autocorrelation of the innovations. Where measurement noise is all that is left it lies within the band 19 times \
