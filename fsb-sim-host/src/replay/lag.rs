@@ -15,9 +15,9 @@ use fsb_core::Tuning;
 
 /// Offsets are searched for within this to either side \[s\].
 pub const RANGE: f64 = 0.2;
-/// λ of the regression \[1/s\], or [`LARGEST_STEP`] over the time step where that is less.
+/// λ of the regression \[1/s\], or half of what one step of the log allows where that is less.
 pub const LAMBDA: f64 = 20.0;
-/// The largest λT.
+/// λT is at most this.
 const LARGEST_STEP: f64 = 0.5;
 /// Step of the scan \[s\]: below the width of the valley, 1/λ or so.
 const STEP: f64 = 0.02;
