@@ -108,6 +108,9 @@ const LARGEST_STEP: f64 = 0.5;
 /// # Errors
 /// Bad input, named by file, line, column or option; a file that cannot be written. Nothing has been written then.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    if args.readout == ReadoutArg::Abs && args.identify.is_some_and(|identify| identify != Identify::NOTHING_ELSE) {
+        return Err(Failure::Usage("--readout abs: drag and disturbance are identified by least squares".into()));
+    }
     let source = args.source.source()?;
     let mut options = args.options();
     let mut remarks = Vec::new();

@@ -27,8 +27,18 @@ pub struct Signs<'a> {
     pub armed: Option<&'a Flags>,
 }
 
-/// The longest part that flies \[s\], or why there is none.
-pub fn flight(signs: &Signs<'_>) -> Result<(f64, f64), String> {
+/// A part that flies.
+pub struct Airborne {
+    /// \[s\]
+    pub from: f64,
+    /// \[s\]
+    pub to: f64,
+    /// How many others the log has.
+    pub others: usize,
+}
+
+/// The longest part that flies, or why there is none.
+pub fn flight(signs: &Signs<'_>) -> Result<Airborne, String> {
     if signs.armed.is_some_and(|armed| armed.iter().all(|&(_, on)| !on)) {
         return Err("the motors are never armed".into());
     }
@@ -44,7 +54,7 @@ pub fn flight(signs: &Signs<'_>) -> Result<(f64, f64), String> {
         !on_ground && !disarmed && (signs.landed.is_some() || value(signs.thrust, t) >= IDLE)
     };
     let mut longest: Option<(f64, f64)> = None;
-    let mut begin = 0;
+    let (mut begin, mut flights) = (0, 0);
     while begin < signs.height.len() {
         if !airborne(signs.height[begin].0) {
             begin += 1;
@@ -58,15 +68,16 @@ pub fn flight(signs: &Signs<'_>) -> Result<(f64, f64), String> {
         let ground = |index: Option<usize>| index.map(|index| signs.height[index].1);
         let before = ground(begin.checked_sub(1));
         let after = ground((end < signs.height.len()).then_some(end));
-        if let Some(found) = clear(&signs.height[begin..end], before, after)
-            && longest.is_none_or(|longest| found.1 - found.0 > longest.1 - longest.0)
-        {
-            longest = Some(found);
+        if let Some(found) = clear(&signs.height[begin..end], before, after) {
+            flights += usize::from(found.1 - found.0 >= SHORTEST);
+            if longest.is_none_or(|longest| found.1 - found.0 > longest.1 - longest.0) {
+                longest = Some(found);
+            }
         }
         begin = end;
     }
     match longest {
-        Some((from, to)) if to - from >= SHORTEST => Ok((from, to)),
+        Some((from, to)) if to - from >= SHORTEST => Ok(Airborne { from, to, others: flights - 1 }),
         Some((from, to)) => Err(format!("only {:.1} s in the air, {SHORTEST} s are needed", to - from)),
         None => Err(format!("the vehicle never is {CLEAR} m above where it stood")),
     }

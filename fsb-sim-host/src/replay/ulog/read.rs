@@ -1,7 +1,7 @@
 //! A ULog file as a flight.
 
 use super::frames::{to_attitude, to_body, to_world};
-use super::phases::{Flags, Signs, flight};
+use super::phases::{Airborne, Flags, Signs, flight};
 use super::resets::resets;
 use super::store::{Store, Topic};
 use super::topics::{
@@ -38,7 +38,8 @@ pub fn read(path: &Path, full_thrust: Option<f64>) -> Result<Flight, FlightError
     let landed = clock.flags(&store, LAND, "landed");
     let armed = clock.flags(&store, ARMED, "armed");
     let signs = Signs { height: &heights, thrust: &sizes, landed: landed.as_ref(), armed: armed.as_ref() };
-    let (from, to) = flight(&signs).map_err(|why| FlightError::NoFlight { file: file.clone(), why })?;
+    let Airborne { from, to, others } =
+        flight(&signs).map_err(|why| FlightError::NoFlight { file: file.clone(), why })?;
 
     let scale = full_thrust.unwrap_or(1.0);
     found.unit = if full_thrust.is_some() { ThrustUnit::Newton } else { ThrustUnit::Normalised };
@@ -55,6 +56,9 @@ pub fn read(path: &Path, full_thrust: Option<f64>) -> Result<Flight, FlightError
     found.notices.extend(chosen.iter().map(|chosen| clock.used(chosen)));
     let (length, in_log) = (to - from, clock.sampled(position.topic).last().copied().unwrap_or(to));
     found.notices.push(format!("flight from {from:.2} s to {to:.2} s ({length:.1} s) of {in_log:.1} s of log"));
+    if others > 0 {
+        found.notices.push(format!("{others} shorter flights in this log are not used"));
+    }
     read_positions(&clock, &position, &file, (from, to), &mut found)?;
     found.notices.extend(saturated(&clock, &store, &sizes, (from, to)));
     if !store.dropouts.is_empty() {
