@@ -192,8 +192,7 @@ fn estimates_are_those_of_the_core_to_the_last_bit() {
     }
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("fsb replay log.csv --lambda 2 --q 1"));
-    let drawn = page.matches("</svg>").count();
-    assert_eq!(drawn, 8, "five of the log, then what is left, other velocities, excitation");
+    assert_eq!(page.matches("</svg>").count(), 8, "of the log, what is left, other velocities, excitation");
 
     let log = AxisLog::from_reader("log.csv", text.as_bytes()).unwrap();
     let result = run(&ReplayOptions::default(), &log).unwrap();
