@@ -13,4 +13,5 @@ pub mod section_v;
 pub mod sensors;
 pub mod soak;
 pub mod statistics;
+pub mod tune;
 pub mod twin;

@@ -191,7 +191,8 @@ fn estimates_are_those_of_the_core_to_the_last_bit() {
         assert!(std::fs::read_to_string(out.join(name)).unwrap().contains("</svg>"), "{name}");
     }
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(page.contains("fsb replay log.csv --lambda 2 --q 1") && page.matches("</svg>").count() == 5);
+    assert!(page.contains("fsb replay log.csv --lambda 2 --q 1"));
+    assert_eq!(page.matches("</svg>").count(), 8, "of the log, what is left, other velocities, excitation");
 
     let log = AxisLog::from_reader("log.csv", text.as_bytes()).unwrap();
     let result = run(&ReplayOptions::default(), &log).unwrap();

@@ -5,6 +5,8 @@
 //! | `paper` | Section V with its table, figures and statistics; runs without arguments too |
 //! | `fly` | the hexarotor in six degrees of freedom; its `spiral` runs without arguments too |
 //! | `replay` | a recorded flight through the core |
+//! | `source` | the files of a recorded flight |
+//! | `tune` | λ, q and ε from what is known and wanted |
 //! | `efficiency` | the spread of k̂ against the Cramér-Rao bound |
 //! | `exactness` | what rounding to f32 leaves of the errors |
 //! | `soak` | hours of simulated flight beside the f64 twin |
@@ -20,6 +22,8 @@ mod fly;
 mod paper;
 mod replay;
 mod soak;
+mod source;
+mod tune;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -28,7 +32,7 @@ use clap::{Parser, Subcommand};
 use serde::Serialize;
 
 const EXIT_STATUS: &str = "Exit status: 0 done; 1 it failed, or what the command checks does not hold; 2 a parameter or an \
-                           input is wrong, and nothing was written.";
+                           input is wrong, and nothing was written; 3 there is no flight in the log.";
 
 /// k and the state of a multirotor from noisy positions: the paper reproduced, and what the f32 core is worth.
 ///
@@ -49,6 +53,8 @@ enum Command {
     #[command(after_help = EXIT_STATUS)]
     Replay(replay::Args),
     #[command(after_help = EXIT_STATUS)]
+    Tune(tune::Args),
+    #[command(after_help = EXIT_STATUS)]
     Efficiency(efficiency::Args),
     #[command(after_help = EXIT_STATUS)]
     Exactness(exactness::Args),
@@ -61,6 +67,8 @@ enum Command {
 enum Failure {
     /// A parameter or an input is wrong: exit status 2.
     Usage(String),
+    /// The log is a good one, but nothing flies in it: exit status 3.
+    NoFlight(String),
     /// Something else: exit status 1.
     Other(anyhow::Error),
 }
@@ -83,6 +91,10 @@ pub fn run() -> ExitCode {
             eprintln!("error: {message}");
             ExitCode::from(2)
         }
+        Err(Failure::NoFlight(message)) => {
+            eprintln!("error: {message}");
+            ExitCode::from(3)
+        }
         Err(Failure::Other(error)) => {
             eprintln!("error: {error:#}");
             ExitCode::FAILURE
@@ -101,6 +113,7 @@ fn run_command(command: &Command) -> Result<ExitCode, Failure> {
         Command::Paper(args) => paper::run(args),
         Command::Fly(args) => fly::run(args),
         Command::Replay(args) => replay::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Tune(args) => tune::run(args),
         Command::Efficiency(args) => efficiency::run(args),
         Command::Exactness(args) => exactness::run(args),
         Command::Soak(args) => soak::run(args),

@@ -37,7 +37,7 @@ pub(super) fn figures(result: &ReplayResult, log: &AxisLog) -> Vec<(&'static str
 }
 
 /// Stacked, or two abreast where there are too many to read in one stack.
-fn grid(title: &str, caption: &str, mut panels: Vec<Panel>) -> Chart {
+pub(super) fn grid(title: &str, caption: &str, mut panels: Vec<Panel>) -> Chart {
     let columns = if panels.len() > 3 { 2 } else { 1 };
     let last_row = panels.len() - columns.min(panels.len());
     for panel in panels.iter_mut().skip(last_row) {

@@ -39,6 +39,8 @@ use clock::Clock;
 use error::Place;
 use header::{AxisHeader, Header};
 
+use crate::twin::Moments;
+
 /// The fewest samples a log may have.
 pub const FEWEST_SAMPLES: usize = 4;
 
@@ -52,8 +54,34 @@ pub struct AxisColumn {
     pub position: Vec<Option<f64>>,
     /// Mean force \[N\] or torque \[N m\] from this sample to the next.
     pub input: Vec<f64>,
+    /// The input as the line, from its value at this sample to that at the next, which has the moments J1 and J2 of what was
+    /// recorded; `None`: `input` is held.
+    pub ramps: Option<Vec<(f64, f64)>>,
     /// Velocity to compare with \[m/s\] or \[rad/s\], if the log has the column; `None` inside: none at this sample.
     pub velocity_reference: Option<Vec<Option<f64>>>,
+}
+
+impl AxisColumn {
+    /// Nothing yet, to be filled with positions and moments.
+    pub(super) fn with_ramps(axis: Axis, velocity_reference: Option<Vec<Option<f64>>>) -> Self {
+        Self { axis, position: Vec::new(), input: Vec::new(), ramps: Some(Vec::new()), velocity_reference }
+    }
+
+    /// Appends the input of an interval of `period` \[s\]. With j1 = J1/T = (f0 + f1)/2 and j2 = J2/T² = (2 f0 + f1)/6 the line
+    /// is f0 = 6 j2 - 2 j1, f1 = 4 j1 - 6 j2.
+    pub(super) fn push_moments(&mut self, moments: Moments, period: f64) {
+        let (j1, j2) = (moments.j1 / period, moments.j2 / (period * period));
+        self.input.push(j1);
+        self.ramps.get_or_insert_default().push((6.0 * j2 - 2.0 * j1, 4.0 * j1 - 6.0 * j2));
+    }
+
+    /// J1 and J2 of the interval that begins at `sample`.
+    pub(super) fn moments(&self, sample: usize, period: f64) -> Moments {
+        match &self.ramps {
+            Some(ramps) => Moments::linear(ramps[sample].0, ramps[sample].1, period),
+            None => Moments::held(self.input[sample], period),
+        }
+    }
 }
 
 /// A log that passed every check.
@@ -95,6 +123,11 @@ impl AxisLog {
             return Err(LogError::NotReadable { file: name.into(), source });
         }
         parse(name, bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))
+    }
+
+    /// Columns of one length.
+    pub(super) const fn of(start: f64, period: f64, axes: Vec<AxisColumn>, samples: usize) -> Self {
+        Self { start, period, axes, unpaired: Vec::new(), samples }
     }
 
     /// Number of samples, at least [`FEWEST_SAMPLES`].

@@ -2,6 +2,7 @@
 
 use super::error::ReplayError;
 use fsb_core::readout::{Memory, ParameterRule, Readout};
+use fsb_core::regression::Identify;
 use fsb_core::{EstimatorConfig, Tuning};
 
 /// How a log is replayed. Plain data; [`super::run`] judges it together with the period of the log.
@@ -17,6 +18,8 @@ pub struct ReplayOptions {
     pub readout: Readout,
     /// How long the read-out remembers.
     pub memory: Memory,
+    /// What is identified beside k on x, y and z, with k shared by them; `None`: k alone, read out as above.
+    pub identify: Option<Identify>,
 }
 
 impl Default for ReplayOptions {
@@ -28,6 +31,7 @@ impl Default for ReplayOptions {
             gravity: 9.81,
             readout: Readout::LeastSquares,
             memory: Memory::Infinite,
+            identify: None,
         }
     }
 }

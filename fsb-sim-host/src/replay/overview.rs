@@ -2,7 +2,7 @@
 
 use super::feed::ParameterTrace;
 use super::result::{AxisResult, ReplayResult};
-use super::summary::about;
+use super::summary::{Summary, about};
 use crate::report::table::{Cell, Column, Table};
 use fsb_core::readout::ParameterStatus;
 
@@ -28,11 +28,56 @@ pub fn table(result: &ReplayResult) -> Table {
     for axis in result.rotational() {
         table.push(row(&format!("inertia {}", about(axis)), axis.axis.name(), &axis.own, "kg m²", Some(axis)));
     }
+    let informed = match result.axes.iter().any(|axis| axis.velocity_rms_error_on_the_way.is_some()) {
+        true => {
+            " It is that of an observer that knows from the first sample on what is identified at the end, its window open."
+        }
+        false => "",
+    };
     table.with_note(&format!(
         "{} samples {} s apart, {} positions missing. sd: as far as measurement noise causes it. Velocity [m/s or rad/s]: of the estimate (x, y, z with the pooled mass) \
-         against the reference of the log.",
+         against the reference of the log.{informed}",
         result.samples, result.period, result.missed
     ))
+}
+
+/// The tables of a replay for the terminal: parameters and axes, what was identified beside k, and the offset of the input.
+pub fn text(result: &ReplayResult, summary: &Summary) -> String {
+    let mut text = table(result).to_text();
+    if result.identified.is_some() {
+        text.push_str(&format!("\n{}", terms(summary).to_text()));
+    }
+    if let Some(hover) = &summary.hover_thrust {
+        let known = |value: Option<f64>| value.map_or_else(|| "none".to_owned(), |value| format!("{value:.4}"));
+        let (value, sd, own) = (known(hover.value), known(hover.sd), known(hover.px4));
+        text.push_str(&format!(
+            "\nhover thrust g/k {value} of the full thrust, sd {sd}; the flight controller's own: {own}\n"
+        ));
+    }
+    text
+}
+
+/// What was identified beside k.
+pub fn terms(summary: &Summary) -> Table {
+    let columns = vec![
+        Column::left("axis"),
+        Column::right("drag D [1/s]"),
+        Column::right("sd"),
+        Column::right("disturbance d [m/s²]"),
+        Column::right("sd"),
+    ];
+    let mut table = Table::new("Drag and disturbance, y'' = k f - D y' + c + d", columns);
+    for (name, axis) in &summary.axes.0 {
+        let Some(terms) = axis.terms else { continue };
+        let cell = |value: Option<f32>| value.map_or(Cell::Missing, |value| Cell::fixed(f64::from(value), 3));
+        let cells = [terms.drag, terms.drag_sd, terms.disturbance, terms.disturbance_sd].map(cell);
+        table.push([vec![Cell::text(name)], cells.into()].concat());
+    }
+    let left = summary.residual_rms.flatten().map_or_else(String::new, |rms| format!(" Left over: {rms:.4} m/s² rms."));
+    let lag = summary
+        .lag_s
+        .map_or_else(String::new, |lag| format!(" The input acts {:.1} ms after its time stamps.", 1e3 * lag));
+    table.with_note(&format!("No value: not asked for, or the data do not tell.{left}{lag}"))
 }
 
 /// Why each parameter that is not valid at the end is not, a line each: the pooled mass and the moments of inertia.

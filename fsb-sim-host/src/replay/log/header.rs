@@ -25,7 +25,7 @@ impl AxisHeader {
     /// The axis, before its first sample.
     pub fn column(&self) -> AxisColumn {
         let velocity_reference = self.reference.map(|_| Vec::new());
-        AxisColumn { axis: self.axis, position: Vec::new(), input: Vec::new(), velocity_reference }
+        AxisColumn { axis: self.axis, position: Vec::new(), input: Vec::new(), ramps: None, velocity_reference }
     }
 }
 

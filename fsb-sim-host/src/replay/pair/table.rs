@@ -1,0 +1,138 @@
+//! A CSV file as columns of numbers, each cell's place known.
+
+use crate::replay::flight::FlightError;
+use csv::{ByteRecord, ReaderBuilder, Trim};
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// A file that has been read.
+pub struct Table {
+    file: String,
+    headers: Vec<String>,
+    rows: Vec<(usize, ByteRecord)>,
+}
+
+/// The numbers of a column; `None` where the cell is empty.
+pub type Numbers = Vec<Option<f64>>;
+
+impl Table {
+    pub fn read(path: &Path) -> Result<Self, FlightError> {
+        let file = path.display().to_string();
+        let bytes = fs::read(path).map_err(|source| match source.kind() {
+            ErrorKind::NotFound => FlightError::NotFound { file: file.clone(), expected: "a CSV file with a header" },
+            _ => FlightError::NotReadable { file: file.clone(), source },
+        })?;
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+        let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(text);
+        let mut rows = Vec::new();
+        for record in reader.byte_records() {
+            let record =
+                record.map_err(|error| FlightError::NotReadable { file: file.clone(), source: error.into() })?;
+            let line = record.position().map_or(0, |position| position.line() as usize);
+            rows.push((line, record));
+        }
+        if rows.is_empty() {
+            return Err(FlightError::Empty { file });
+        }
+        let (_, header) = rows.remove(0);
+        let headers: Vec<String> = header.iter().map(shown).collect();
+        for (line, row) in &rows {
+            if row.len() != headers.len() {
+                let (found, expected) = (row.len(), headers.len());
+                return Err(FlightError::FieldCount { file, line: *line, found, expected });
+            }
+        }
+        Ok(Self { file, headers, rows })
+    }
+
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    pub fn line(&self, row: usize) -> usize {
+        self.rows.get(row).map_or(1, |(line, _)| *line)
+    }
+
+    /// The column of this header, if the file has it.
+    pub fn optional(&self, header: &str) -> Result<Option<Numbers>, FlightError> {
+        let mut found = (0..self.headers.len()).filter(|&index| self.headers[index] == header);
+        let (Some(index), again) = (found.next(), found.next()) else { return Ok(None) };
+        if again.is_some() {
+            return Err(FlightError::DuplicateColumn { file: self.file.clone(), line: 1, header: header.to_owned() });
+        }
+        let cells = self.rows.iter().map(|(line, row)| self.cell(*line, header, row.get(index).unwrap_or_default()));
+        cells.collect::<Result<Numbers, _>>().map(Some)
+    }
+
+    /// The column of this header; `role` is what it is for.
+    pub fn column(&self, role: &'static str, header: &str) -> Result<Numbers, FlightError> {
+        self.optional(header)?.ok_or_else(|| FlightError::NoColumn {
+            file: self.file.clone(),
+            line: 1,
+            role,
+            header: header.to_owned(),
+            found: self.headers.join(", "),
+        })
+    }
+
+    /// The column of this header, a number in every cell.
+    pub fn full(&self, role: &'static str, header: &str) -> Result<Vec<f64>, FlightError> {
+        let column = self.column(role, header)?;
+        let numbers = column.into_iter().enumerate();
+        numbers.map(|(row, cell)| cell.ok_or_else(|| self.refuse(row, header, "", "a number"))).collect()
+    }
+
+    /// A rising time. Rows at the very same time as the one before are left out: the first of each is kept.
+    pub fn time(&self, role: &'static str, header: &str) -> Result<(Vec<f64>, Vec<usize>), FlightError> {
+        let (mut times, mut rows) = (Vec::new(), Vec::new());
+        for (row, found) in self.full(role, header)?.into_iter().enumerate() {
+            match times.last() {
+                Some(&previous) if found < previous => {
+                    let (file, line, column) = (self.file.clone(), self.line(row), header.to_owned());
+                    return Err(FlightError::NotIncreasing { file, line, column, found, previous });
+                }
+                Some(&previous) if found == previous => {}
+                _ => {
+                    times.push(found);
+                    rows.push(row);
+                }
+            }
+        }
+        Ok((times, rows))
+    }
+
+    /// The error for a cell.
+    pub fn refuse(&self, row: usize, column: &str, found: &str, expected: &'static str) -> FlightError {
+        let (file, column, found) = (self.file.clone(), column.to_owned(), found.to_owned());
+        FlightError::Cell { file, line: self.line(row), column, found, expected }
+    }
+
+    fn cell(&self, line: usize, header: &str, field: &[u8]) -> Result<Option<f64>, FlightError> {
+        if field.is_empty() {
+            return Ok(None);
+        }
+        let number = std::str::from_utf8(field).ok().and_then(|field| field.parse::<f64>().ok());
+        match number {
+            Some(number) if number.abs() <= f64::from(f32::MAX) => Ok(Some(number)),
+            Some(number) if number.is_nan() => Ok(None),
+            _ => Err(FlightError::Cell {
+                file: self.file.clone(),
+                line,
+                column: header.to_owned(),
+                found: shown(field),
+                expected: "a finite number or an empty cell",
+            }),
+        }
+    }
+}
+
+/// A cell for a message, long ones cut.
+fn shown(field: &[u8]) -> String {
+    const LONGEST: usize = 60;
+    let whole = String::from_utf8_lossy(field);
+    match whole.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &whole[..end]),
+        None => whole.into_owned(),
+    }
+}
