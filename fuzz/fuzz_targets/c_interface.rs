@@ -19,20 +19,16 @@ fuzz_target!(|data: &[u8]| {
 
 fn run(bytes: &mut Bytes<'_>) -> Option<()> {
     let mut storage = Storage([0; 4096]);
-    if bytes.byte()? & 1 == 1 {
-        // What lies in memory before.
-        for byte in storage.0.iter_mut().take(64) {
-            *byte = bytes.byte()?;
-        }
-    }
+    // What lies in memory before. (A forged object, or one that another one was put on top of, is a broken contract.)
+    storage.0.fill(bytes.byte()?);
     assert!(size_of::<fsb_axis_t>() + 8 <= storage.0.len());
     loop {
         let choice = bytes.byte()?;
         let base = storage.0.as_mut_ptr();
         let it: *mut fsb_axis_t = match choice >> 5 {
             0 => null_mut(),
-            // SAFETY: within the storage.
-            1 => unsafe { base.add(usize::from(choice & 7)) }.cast(),
+            // SAFETY: within the storage; misaligned.
+            1 => unsafe { base.add(usize::from(choice & 7) | 1) }.cast(),
             _ => base.cast(),
         };
         // SAFETY: the storage is large enough at any of these addresses, or the address is null; that is the contract.

@@ -8,6 +8,7 @@
 //! | `compare` | the same but for the last digit |
 //! | `examples` | the programs shown |
 //! | `figure` | the figure shown |
+//! | `fly` | simulated flights |
 //! | `flights` | recorded flights, where there are any |
 //! | `links` | files that a document refers to |
 //! | `measured` | what the commands say |
@@ -19,6 +20,7 @@ mod compare;
 mod examples;
 mod figure;
 mod flights;
+mod fly;
 mod links;
 mod measured;
 mod tables;
@@ -82,6 +84,9 @@ fn content(block: &Block, measured: &Measured) -> Result<Option<(String, Toleran
         "exactness" => Some((tables::exactness(&measured.exactness, &|_| true)?, Tolerance::Rounding)),
         "exactness-short" => Some((tables::exactness(&measured.exactness, &tables::in_short)?, Tolerance::Rounding)),
         "cost" => Some((budgets::table()?, Tolerance::None)),
+        "fly" => Some((fly::scenarios()?, Tolerance::LastDigit)),
+        "fly-random" => Some((fly::random()?, Tolerance::LastDigit)),
+        "drag" => flights::drag()?.map(|table| (table, Tolerance::LastDigit)),
         "flights" => flights::table()?.map(|table| (table, Tolerance::LastDigit)),
         "example-rust" => Some((examples::rust()?, Tolerance::None)),
         "example-c" => examples::c()?.map(|example| (example, Tolerance::None)),
