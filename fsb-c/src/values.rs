@@ -45,6 +45,8 @@ pub const FSB_PARAMETER_BELOW: i32 = 4;
 pub const FSB_PARAMETER_ABOVE: i32 = 5;
 /// Not usable: the motion contradicts the model, as on the ground or with a motor that does not obey.
 pub const FSB_PARAMETER_CONTRADICTED: i32 = 6;
+/// Not usable: the sums are no numbers, the object's memory has been changed from outside. Reset it.
+pub const FSB_PARAMETER_FAULTED: i32 = 7;
 /// Usable.
 pub const FSB_PARAMETER_VALID: i32 = 8;
 /// Usable: the k from before the identification began anew, until the new one is valid.
@@ -163,6 +165,7 @@ impl fsb_parameter_t {
             ParameterStatus::BelowRange => FSB_PARAMETER_BELOW,
             ParameterStatus::AboveRange => FSB_PARAMETER_ABOVE,
             ParameterStatus::Contradicted => FSB_PARAMETER_CONTRADICTED,
+            ParameterStatus::Faulted => FSB_PARAMETER_FAULTED,
             ParameterStatus::Valid => FSB_PARAMETER_VALID,
             ParameterStatus::Held => FSB_PARAMETER_HELD,
             _ => FSB_PARAMETER_UNKNOWN,
@@ -263,6 +266,7 @@ pub extern "C" fn fsb_parameter_status_name(status: fsb_parameter_status_t) -> *
         FSB_PARAMETER_BELOW => c"FSB_PARAMETER_BELOW",
         FSB_PARAMETER_ABOVE => c"FSB_PARAMETER_ABOVE",
         FSB_PARAMETER_CONTRADICTED => c"FSB_PARAMETER_CONTRADICTED",
+        FSB_PARAMETER_FAULTED => c"FSB_PARAMETER_FAULTED",
         FSB_PARAMETER_VALID => c"FSB_PARAMETER_VALID",
         FSB_PARAMETER_HELD => c"FSB_PARAMETER_HELD",
         _ => c"FSB_PARAMETER_UNKNOWN",

@@ -2,6 +2,7 @@
 
 use super::Estimator;
 use super::output::OutOfStep;
+use crate::readout::ParameterStatus;
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Whether a measurement may be given now.
@@ -29,6 +30,14 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             .axes
             .each_ref()
             .map(|axis| axis.measured.then(|| axis.observer.predict(axis.moments, &axis.model, m1)))
+    }
+
+    /// Whether every number that is handed out or carried on is one. Only a memory changed from outside makes it false: what
+    /// comes in is checked.
+    pub(crate) fn is_sane(&self) -> bool {
+        let most = 8.0 * self.frame.common.position_limit;
+        self.frame.axes.iter().all(|axis| axis.observer.is_within(most))
+            && self.parameters.iter().all(|parameter| parameter.status != ParameterStatus::Faulted)
     }
 
     /// The observers' innovations at the last measurement instant.

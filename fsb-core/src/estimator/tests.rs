@@ -1,6 +1,10 @@
 //! What cannot be reached from outside in a reasonable time.
 
 use super::{Estimator, EstimatorConfig};
+use crate::accumulator::Accumulator;
+use crate::guard::{GuardConfig, Guarded};
+use crate::observer::Observer;
+use crate::readout::ParameterStatus;
 
 /// A swing under a known force, k = 2; returns the number of ticks with a valid state.
 fn swing(estimator: &mut Estimator<1, 1>, from: u32, ticks: u32) -> u32 {
@@ -22,7 +26,8 @@ fn swing(estimator: &mut Estimator<1, 1>, from: u32, ticks: u32) -> u32 {
 #[test]
 fn counts_go_on() {
     for block in [1, 10, 40] {
-        let config = EstimatorConfig { block, parameter_settle: 0.5, ..EstimatorConfig::new(1e-3) };
+        // The swing begins anew in between, which contradicts any model.
+        let config = EstimatorConfig { block, parameter_settle: 0.5, max_misfit: None, ..EstimatorConfig::new(1e-3) };
         let mut estimator = Estimator::<1, 1>::new(&config).expect("valid");
         swing(&mut estimator, 0, 3000);
         assert!(estimator.parameters()[0].is_some(), "block {block}");
@@ -35,4 +40,39 @@ fn counts_go_on() {
         let k = estimator.parameters()[0].expect("identified anew").value;
         assert!((k - 2.0).abs() < 1e-4, "block {block}: {k}");
     }
+}
+
+/// A memory changed from outside: told by the bare estimator's status, begun anew by the guarded one.
+#[test]
+fn what_is_no_number_is_a_fault() {
+    let config = EstimatorConfig::new(1e-3);
+    let mut bare = Estimator::<1, 1>::new(&config).expect("valid");
+    swing(&mut bare, 0, 3000);
+    bare.frame.axes[0].cascade.x1 = Accumulator::new(f32::NAN);
+    swing(&mut bare, 3000, 10);
+    assert_eq!(bare.parameter_status(), [ParameterStatus::Faulted]);
+    assert!(bare.parameters()[0].is_none());
+
+    let mut guarded = Guarded::<1, 1>::new(&config, &GuardConfig::default()).expect("valid");
+    let corrupt: [fn(&mut Estimator<1, 1>); 3] = [
+        |e| e.frame.axes[0].cascade.x1 = Accumulator::new(f32::NAN),
+        |e| e.frame.axes[0].observer = Observer::at(f32::NAN),
+        |e| e.frame.axes[0].observer = Observer::at(1e30),
+    ];
+    let (mut y, mut v) = (0.3_f64, 0.0_f64);
+    for tick in 0..12_000_u32 {
+        if tick % 3000 == 2999 && tick < 9000 {
+            guarded.corrupt(corrupt[(tick / 3000) as usize]);
+        }
+        guarded.measure(&[Some(y as f32)]).expect("in step");
+        for state in guarded.states().into_iter().flatten() {
+            assert!((f64::from(state.velocity) - v).abs() < 1e-2, "{tick}: {state:?} for {v}");
+        }
+        let force = (if tick / 250 % 2 == 0 { 1.0 } else { -1.0 } - 2.0 * y) as f32;
+        guarded.apply(&[force]);
+        y += v * 1e-3 + f64::from(force) * 1e-6;
+        v += 2.0 * f64::from(force) * 1e-3;
+    }
+    assert_eq!(guarded.rejections().faults, 3);
+    assert!((guarded.parameters()[0].expect("identified anew").value - 2.0).abs() < 1e-3);
 }

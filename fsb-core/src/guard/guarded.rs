@@ -62,6 +62,10 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
     /// As [`Estimator::measure`].
     pub fn measure(&mut self, positions: &[Option<f32>; N]) -> Result<[Verdict; N], OutOfStep> {
         self.estimator.in_step()?;
+        if !self.estimator.is_sane() {
+            self.reset();
+            self.rejections.count_fault();
+        }
         let expected = self.estimator.expected();
         let limit = self.estimator.position_limit();
         let settled = self.instants >= Self::FIRST;
@@ -165,12 +169,20 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
     }
 
     fn fresh(&self, mut states: [Option<AxisState>; N]) -> [Option<AxisState>; N] {
+        let most = 8.0 * self.estimator.position_limit();
         for (state, gate) in states.iter_mut().zip(&self.gates) {
-            if gate.gap() > self.design.bridge {
+            // What is out of all bounds, or no number, is a fault that the next measurement will find.
+            let sane = state.is_some_and(|s| s.position.abs() <= most && s.velocity.is_finite());
+            if gate.gap() > self.design.bridge || !sane {
                 *state = None;
             }
         }
         states
+    }
+
+    #[cfg(test)]
+    pub(crate) fn corrupt(&mut self, how: fn(&mut Estimator<N, P>)) {
+        how(&mut self.estimator);
     }
 
     fn remember(&mut self, moments: &[InputMoments; N]) {

@@ -14,7 +14,8 @@
 //!
 //! What is not taken is counted by reason and predicted instead. Improbable measurements in a row that agree with each other
 //! are a jump of the sensor's origin: positions are moved by it, and as the plant is translation invariant, velocity and
-//! identification go on as if nothing had happened. The estimator itself pays nothing for the gate.
+//! identification go on as if nothing had happened. A state that holds what is no number, which only a memory changed from
+//! outside can bring about, is counted and begun anew. The estimator itself pays nothing for the gate.
 //!
 //! | file | what |
 //! |---|---|

@@ -45,7 +45,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// Measurements that were not used, by reason, over all axes. They only rise, and stop at the largest number.
+/// Measurements that were not used, by reason, over all axes, and faults of the state. They only rise, and stop at the largest number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rejections {
@@ -61,9 +61,15 @@ pub struct Rejections {
     pub frozen: u32,
     /// Jumps of a sensor's origin.
     pub jumps: u32,
+    /// Starts anew because the state held what is no number or out of all bounds: a memory changed from outside.
+    pub faults: u32,
 }
 
 impl Rejections {
+    pub(super) fn count_fault(&mut self) {
+        self.faults = self.faults.saturating_add(1);
+    }
+
     pub(super) fn count(&mut self, verdict: Verdict) {
         let counter = match verdict {
             Verdict::Taken => return,

@@ -56,6 +56,11 @@ impl Observer {
         *self = Self { y, r: 0.0, w: Accumulator::ZERO };
     }
 
+    #[cfg(test)]
+    pub(crate) fn at(y: f32) -> Self {
+        Self { y, r: y, w: Accumulator::new(y) }
+    }
+
     /// Puts the state at T v̂ = `t_velocity` and ŷ = y - `residual`, y being the last measurement and `gains` those of its
     /// sample.
     pub fn seed(&mut self, residual: f32, t_velocity: f32, gains: &Gains) {

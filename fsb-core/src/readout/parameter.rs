@@ -306,6 +306,8 @@ impl ParameterState {
             ParameterStatus::Settling
         } else if !self.read {
             ParameterStatus::Unexcited
+        } else if self.value.is_nan() {
+            ParameterStatus::Faulted
         } else if self.contradicted {
             ParameterStatus::Contradicted
         } else if self.value > rule.max {

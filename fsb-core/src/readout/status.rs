@@ -19,6 +19,8 @@ pub enum ParameterStatus {
     BelowRange,
     /// k̂ is above the configured range.
     AboveRange,
+    /// The sums are no numbers: the memory has been changed from outside. `Guarded` begins anew by itself.
+    Faulted,
     /// The model does not explain the motion: in contact with the ground, a motor that does not obey, a wrong input.
     Contradicted,
     /// Usable.
@@ -35,6 +37,7 @@ impl fmt::Display for ParameterStatus {
             Self::Uncertain => "uncertain",
             Self::BelowRange => "below its range",
             Self::AboveRange => "above its range",
+            Self::Faulted => "faulted",
             Self::Contradicted => "contradicted by the motion",
             Self::Valid => "valid",
             Self::Held => "held",
@@ -52,9 +55,10 @@ impl Stored for ParameterStatus {
             2 => *self = Self::Uncertain,
             3 => *self = Self::BelowRange,
             4 => *self = Self::AboveRange,
-            5 => *self = Self::Contradicted,
-            6 => *self = Self::Valid,
-            7 => *self = Self::Held,
+            5 => *self = Self::Faulted,
+            6 => *self = Self::Contradicted,
+            7 => *self = Self::Valid,
+            8 => *self = Self::Held,
             _ => archive.refuse(),
         }
     }
