@@ -6,6 +6,7 @@
 //! | `replay` | a recorded flight through the core |
 //! | `efficiency` | the spread of k̂ against the Cramér-Rao bound |
 //! | `exactness` | what rounding to f32 leaves of the errors |
+//! | `faults` | bad input and faults, and what is left of them |
 //! | `soak` | hours of simulated flight beside the f64 twin |
 //!
 //! Results go to stdout, everything else to stderr. With `--json` stdout holds one JSON object and nothing else.
@@ -15,6 +16,7 @@
 
 mod efficiency;
 mod exactness;
+mod faults;
 mod paper;
 mod replay;
 mod soak;
@@ -49,6 +51,8 @@ enum Command {
     #[command(after_help = EXIT_STATUS)]
     Exactness(exactness::Args),
     #[command(after_help = EXIT_STATUS)]
+    Faults(faults::Args),
+    #[command(after_help = EXIT_STATUS)]
     Soak(soak::Args),
 }
 
@@ -74,6 +78,7 @@ pub fn run() -> ExitCode {
         Command::Replay(args) => replay::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Efficiency(args) => efficiency::run(&args),
         Command::Exactness(args) => exactness::run(&args),
+        Command::Faults(args) => faults::run(&args),
         Command::Soak(args) => soak::run(&args),
     };
     match done {
