@@ -31,6 +31,12 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             .map(|axis| axis.measured.then(|| axis.observer.predict(axis.moments, &axis.model, m1)))
     }
 
+    /// What the measurements were off from what was expected; zero where it was missed. For a state that has been put elsewhere
+    /// since, what it would have been from there.
+    pub(crate) fn innovations(&self) -> [f32; N] {
+        self.frame.axes.each_ref().map(|axis| axis.observer.innovation())
+    }
+
     /// Moves the origins of the axes by `by` (m or rad): measurements are larger by that from now on. Velocities and the
     /// identification do not notice, as the plant is translation invariant. An axis that would come to lie beyond twice the
     /// limit of its measurements stays where it is.

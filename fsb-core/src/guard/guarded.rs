@@ -88,6 +88,9 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
             self.estimator.translate(&moved);
         }
         self.estimator.measure_raw(&given)?;
+        for (gate, innovation) in self.gates.iter_mut().zip(self.estimator.innovations()) {
+            gate.follow(innovation, &self.design);
+        }
         if self.instants < Self::FIRST && self.estimator.has_started() {
             self.instants += 1;
         }

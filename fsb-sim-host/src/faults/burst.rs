@@ -57,7 +57,7 @@ pub const BURSTS: [Burst; 10] = [
         "freeze, `frozen_after` 0",
         "the same, not looked for",
         FaultConfig { freeze: 1.0, freeze_length: 100, ..NONE },
-        0.01,
+        0.02,
     ),
     burst("jitter", "taken up to half a period early or late", FaultConfig { jitter: 0.5, ..NONE }, 0.01),
     burst("delay", "five samples late", FaultConfig { delay: 5, ..NONE }, 0.01),
