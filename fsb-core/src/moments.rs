@@ -93,3 +93,35 @@ impl InputMoments {
         self.j1 += part.j1;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (J1, J2) of f(t) = t² over 0..1 is (1/3, 1/12); in three parts, each with its own moments, the same. And what is held or
+    /// goes linearly is a part like any other.
+    #[test]
+    fn parts_of_an_interval() {
+        let step = Substep::new(3).unwrap();
+        let (mut square, mut held, mut ramp) = (InputMoments::ZERO, InputMoments::ZERO, InputMoments::ZERO);
+        let (mut held_parts, mut ramp_parts) = (held, ramp);
+        for part in [0.0_f32, 1.0, 2.0] {
+            // (a + s)²/9 over s in 0..1.
+            let a = part;
+            square.append(
+                &InputMoments { j1: (a * a + a + 1.0 / 3.0) / 9.0, j2: (a * a / 2.0 + a / 3.0 + 1.0 / 12.0) / 9.0 },
+                &step,
+            );
+            let (f0, f1) = (1.0 + a, 2.5 - 3.0 * a);
+            held.hold(f0, &step);
+            held_parts.append(&InputMoments { j1: f0, j2: f0 / 2.0 }, &step);
+            ramp.ramp(f0, f1, &step);
+            ramp_parts.append(&InputMoments { j1: (f0 + f1) / 2.0, j2: (2.0 * f0 + f1) / 6.0 }, &step);
+        }
+        let close = |a: InputMoments, b: InputMoments| (a.j1 - b.j1).abs() < 3e-7 && (a.j2 - b.j2).abs() < 3e-7;
+        assert!(close(square, InputMoments { j1: 1.0 / 3.0, j2: 1.0 / 12.0 }), "{square:?}");
+        assert!(close(held, held_parts) && close(ramp, ramp_parts), "{held:?} {held_parts:?} {ramp:?} {ramp_parts:?}");
+        // Held at 1, 2, 3: J1 = 2, J2 = (1 (5/6) + 2 (3/6) + 3 (1/6))/3.
+        assert!(close(held, InputMoments { j1: 2.0, j2: 7.0 / 9.0 }), "{held:?}");
+    }
+}

@@ -3,6 +3,7 @@
 
 pub mod exactness;
 pub mod faults;
+pub mod fly;
 pub mod hexarotor;
 pub mod paper_form;
 pub mod plant;

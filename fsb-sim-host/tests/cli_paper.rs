@@ -28,7 +28,7 @@ fn keys(value: &Value) -> Vec<String> {
 const REPORT: [&str; 9] =
     ["fig2.svg", "fig3.svg", "fig4.svg", "fig5.svg", "fig6.svg", "fig7.svg", "fig8.svg", "fig9.svg", "report.html"];
 
-/// Without arguments: Section V with its defaults, the table, the report, and where it was written.
+/// Without arguments: Section V with its defaults, the table, the report, and where it was written; then the spiral.
 #[test]
 fn no_arguments_reproduce_the_paper() {
     let root = tempfile::tempdir().unwrap();
@@ -39,6 +39,8 @@ fn no_arguments_reproduce_the_paper() {
         assert!(out.contains(part), "{part} is missing in\n{out}");
     }
     assert_eq!(files(&root.path().join("out/paper")), REPORT);
+    assert_eq!(files(&root.path().join("out/fly-spiral")), ["report.html", "scene.svg"]);
+    assert!(out.contains("out/fly-spiral/report.html") && out.contains("spiral: what is estimated"), "{out}");
     let page = std::fs::read_to_string(root.path().join("out/paper/report.html")).unwrap();
     for figure in 2..=9 {
         assert!(page.contains(&format!("Fig. {figure}.")), "Fig. {figure} is not in the report");

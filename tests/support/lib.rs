@@ -3,3 +3,6 @@
 pub mod analytic;
 pub mod drag_flight;
 pub mod flight;
+pub mod fly;
+pub mod rigid_body;
+pub mod six_axes;

@@ -6,7 +6,7 @@ use super::axis::Axis;
 use super::design::Common;
 use super::shared::IdentifierClock;
 use crate::identifier::{BlockMean, Coefficients, Stage};
-use crate::readout::{ParameterState, weight};
+use crate::readout::{ParameterState, Readout, weight};
 
 /// What all axes need in a round of single samples.
 #[derive(Clone, Copy)]
@@ -78,8 +78,12 @@ impl Axis {
             return;
         }
         let z0 = self.cascade.z0();
-        if parameter.ratio.add_plain(z2, z0) && coarse {
-            self.coarse_step(z2, z0, clock, parameter, common);
+        if parameter.ratio.add_plain(z2, z0) {
+            if coarse {
+                self.coarse_step(z2, z0, clock, parameter, common);
+            }
+        } else if coarse {
+            parameter.step_coarsely(0.0, 0.0, 0.0);
         }
     }
 
@@ -93,8 +97,13 @@ impl Axis {
         common: &Common,
     ) {
         let z0 = self.cascade.z0();
-        if parameter.ratio.add(common.readout, z2, z0, common.forgetting) && coarse {
-            self.coarse_step(z2, z0, clock, parameter, common);
+        if parameter.ratio.add(common.readout, z2, z0, common.forgetting) {
+            if coarse {
+                self.coarse_step(z2, z0, clock, parameter, common);
+            }
+        } else if coarse {
+            // Nothing to add: those that share the parameter do not wait for this axis.
+            parameter.step_coarsely(0.0, 0.0, 0.0);
         }
     }
 
@@ -125,11 +134,24 @@ impl Axis {
         let (up, down) = weight(common.readout, z2, z0);
         let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
-        parameter.step_coarsely(covariance.stride * down * z0, covariance.forgetting);
+        let noise = match common.readout {
+            Readout::LeastSquares => {
+                self.noise.measurement_variance() * clock.shape.variance() * common.identifier.scale2()
+            }
+            Readout::AbsoluteRatio => 0.0,
+        };
+        parameter.step_coarsely(covariance.stride * down * z0, noise, covariance.forgetting);
     }
 
-    /// σ² var a, this axis's share of the variance of the numerator of k̂; `None` while the noise level is not known.
+    /// σ² var a, this axis's share of the variance of the numerator of k̂; `None` while the noise level is not known, unless
+    /// the axis has added nothing yet.
     pub fn numerator_variance(&self, per_stride: f32) -> Option<f32> {
-        if self.noise.is_known() { Some(self.noise.variance() * per_stride * self.noise_sum.value()) } else { None }
+        if self.noise_sum.value() == 0.0 {
+            Some(0.0)
+        } else if self.noise.is_known() {
+            Some(self.noise.variance() * per_stride * self.noise_sum.value())
+        } else {
+            None
+        }
     }
 }

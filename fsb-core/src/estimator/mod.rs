@@ -42,6 +42,7 @@ pub use config::EstimatorConfig;
 pub use design::EstimatorDesign;
 pub(crate) use design::{limit, samples};
 pub use output::{AxisDiagnostics, AxisState, Counters, Learning, OutOfStep, StateStatus};
+pub(crate) use output::{IdentifierView, InnovationView};
 
 use crate::error::ConfigError;
 use crate::readout::ParameterState;

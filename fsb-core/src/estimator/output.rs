@@ -1,5 +1,6 @@
 //! What an estimator hands out.
 
+use crate::moments::InputMoments;
 use core::fmt;
 
 /// Position and velocity of an axis at the present tick.
@@ -88,6 +89,41 @@ pub struct Counters {
     pub rejected_measurements: u32,
     /// Inputs that were not finite or beyond the limit; the axis's mean input of late was used in their place.
     pub rejected_inputs: u32,
+}
+
+/// What goes with the observer from outside needs of its last step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct InnovationView<const N: usize> {
+    /// y - ŷ⁻.
+    pub innovations: [f32; N],
+    /// Input over the interval that ended with it.
+    pub moments: [InputMoments; N],
+    /// σ² of a measurement, where it is known.
+    pub noise_variances: [Option<f32>; N],
+    /// Every axis was measured.
+    pub measured: bool,
+    pub m1: f32,
+    pub t_l2: f32,
+}
+
+/// What goes with the identifier from outside needs of its last step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct IdentifierView<const N: usize> {
+    /// Steps so far; begins anew with the identification.
+    pub blocks: u32,
+    /// g\[n-1\], the weight of S.
+    pub weight: f32,
+    /// c = 1 - e^(-λT)
+    pub c: f32,
+    pub scale: f32,
+    /// 1/M
+    pub per_length: f32,
+    /// ẑ0, scaled.
+    pub z0: [f32; N],
+    /// Whether the step has been added to the sums.
+    pub counts: [bool; N],
+    /// Σ ω ẑ0 of the axis's parameter.
+    pub denominators: [f32; N],
 }
 
 /// The identifier's inner signals in physical units: for logs and tests, not for control.

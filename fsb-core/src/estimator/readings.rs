@@ -2,7 +2,8 @@
 
 use super::Estimator;
 use super::axis::Source;
-use super::output::{AxisDiagnostics, AxisState, Counters, StateStatus};
+use super::output::{AxisDiagnostics, AxisState, Counters, IdentifierView, InnovationView, StateStatus};
+use super::parts::Frame;
 use crate::moments::InputMoments;
 use crate::observer::{Model, NoiseGain};
 use crate::readout::{Parameter, ParameterStatus};
@@ -72,6 +73,63 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             }
         }
         states
+    }
+
+    /// The observer's last step.
+    pub(crate) fn innovation_view(&self) -> InnovationView<N> {
+        let Frame { common, progress, axes } = &self.frame;
+        let gains = &progress.observer.gains;
+        InnovationView {
+            innovations: axes.each_ref().map(|axis| axis.observer.innovation()),
+            moments: axes.each_ref().map(|axis| axis.moments),
+            // Means over M samples have an M-th of the variance.
+            noise_variances: axes.each_ref().map(|axis| {
+                axis.noise.is_known().then(|| axis.noise.measurement_variance() * common.block_length as f32)
+            }),
+            measured: progress.all_measured,
+            m1: gains.m1(),
+            t_l2: gains.t_l2(),
+        }
+    }
+
+    /// The identifier's last step.
+    pub(crate) fn identifier_view(&self) -> IdentifierView<N> {
+        let Frame { common, progress, axes } = &self.frame;
+        let clock = &progress.identifier;
+        IdentifierView {
+            blocks: clock.blocks,
+            weight: clock.at.g,
+            c: common.identifier.c,
+            scale: common.identifier.scale,
+            per_length: common.block.per_length,
+            z0: axes.each_ref().map(|axis| axis.cascade.z0()),
+            // The window is zero in the first two steps; a block of predictions says nothing.
+            counts: axes
+                .each_ref()
+                .map(|axis| axis.present && clock.blocks > 2 && u32::from(axis.gap) < common.block_length),
+            denominators: core::array::from_fn(|index| {
+                self.parameters.get(if P == 1 { 0 } else { index }).map_or(0.0, |p| p.ratio.denominator())
+            }),
+        }
+    }
+
+    /// Adds to an axis's input cascade (x4, x5, x6), and to the denominator of its parameter: what the input turns out to have
+    /// been beyond what was applied.
+    pub(crate) fn shift_input(&mut self, axis: usize, cascade: [f32; 3], denominator: f32) {
+        let parameter = if P == 1 { 0 } else { axis };
+        if let (Some(axis), Some(parameter)) = (self.frame.axes.get_mut(axis), self.parameters.get_mut(parameter)) {
+            let [x4, x5, x6] = cascade;
+            axis.cascade.x4.add(x4);
+            axis.cascade.x5.add(x5);
+            axis.cascade.x6.add(x6);
+            parameter.ratio.shift_denominator(denominator);
+        }
+    }
+
+    /// The newest quotient of each parameter, valid or not, where it can be right: in range, and known to four times
+    /// the standard deviation at which it becomes valid.
+    pub(crate) fn rough_parameters(&self) -> [Option<f32>; P] {
+        self.parameters.each_ref().map(|p| p.rough())
     }
 
     /// Why a state may be used or not.

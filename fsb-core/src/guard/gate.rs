@@ -16,7 +16,7 @@ pub(super) struct Gate {
     run: u16,
     /// How often the last measurement has come again.
     repeated: u16,
-    /// The innovation of the last measurement that was used.
+    /// The observer's innovation after the last measurement that was used.
     innovation: f32,
     /// That of the last improbable one.
     candidate: f32,
@@ -75,13 +75,11 @@ impl Gate {
             return Verdict::Frozen;
         }
         let Some(expected) = expected else {
-            self.innovation = 0.0;
             return Verdict::Taken;
         };
         let innovation = y - expected;
         let step = innovation - self.innovation;
         if !settled {
-            self.innovation = innovation;
             return Verdict::Taken;
         }
         let noise = design.sigmas2 * (1.0 / Self::OF_NORMAL) * self.level;
@@ -94,7 +92,6 @@ impl Gate {
             if self.gap == 0 {
                 self.learn(step * step);
             }
-            self.innovation = innovation;
             return Verdict::Taken;
         }
         // Predicted all along from the same state: only a jump keeps its distance.

@@ -141,11 +141,33 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
     /// measured. Gaps longer than the configured bridge restart the windows. Cost: that of as many calls of `apply`, at most
     /// those of twice the bridge.
     pub fn missed(&mut self, periods: u32) {
-        let most = 2 * u32::from(self.design.bridge) * self.estimator.substeps();
-        for _ in 0..periods.min(most) {
+        for _ in 0..periods.min(self.longest()) {
             let last = self.last;
             self.apply_moments(&last);
         }
+    }
+
+    /// Control periods without a measurement after which nothing is known any more.
+    pub(crate) fn longest(&self) -> u32 {
+        2 * u32::from(self.design.bridge) * self.estimator.substeps()
+    }
+
+    /// As [`Estimator::states_after`], but for axes that are stale.
+    pub(crate) fn states_after(&self, ahead: &[InputMoments; N], periods: u32) -> [Option<AxisState>; N] {
+        self.fresh(self.estimator.states_after(ahead, periods))
+    }
+
+    pub(crate) fn shift_input(&mut self, axis: usize, by: [f32; 3], denominator: f32) {
+        self.estimator.shift_input(axis, by, denominator);
+    }
+
+    fn fresh(&self, mut states: [Option<AxisState>; N]) -> [Option<AxisState>; N] {
+        for (state, gate) in states.iter_mut().zip(&self.gates) {
+            if gate.gap() > self.design.bridge {
+                *state = None;
+            }
+        }
+        states
     }
 
     fn remember(&mut self, moments: &[InputMoments; N]) {
@@ -165,13 +187,7 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
 
     /// The states that may be used: as [`Estimator::states`], but for an axis that is stale.
     pub fn states(&self) -> [Option<AxisState>; N] {
-        let mut states = self.estimator.states();
-        for (state, gate) in states.iter_mut().zip(&self.gates) {
-            if gate.gap() > self.design.bridge {
-                *state = None;
-            }
-        }
-        states
+        self.fresh(self.estimator.states())
     }
 
     /// As [`Estimator::state_status`].

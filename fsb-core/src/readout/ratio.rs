@@ -99,6 +99,11 @@ impl Ratio {
         self.denominator.fold();
     }
 
+    /// Adds to the denominator alone.
+    pub(crate) fn shift_denominator(&mut self, by: f32) {
+        self.denominator.add_folded(by);
+    }
+
     /// Σ ω ẑ2 / Σ ω ẑ0; not finite before there is information.
     pub fn quotient(&self) -> f32 {
         self.numerator.value() / self.denominator.value()

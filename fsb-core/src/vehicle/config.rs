@@ -1,5 +1,6 @@
 //! The configuration of a [`super::VehicleEstimator`]: plain data.
 
+use crate::guard::GuardConfig;
 use crate::readout::{Memory, Readout};
 use crate::tuning::Tuning;
 
@@ -61,10 +62,14 @@ pub struct GroupConfig {
     pub memory: Memory,
     /// The largest relative standard deviation at which a parameter becomes valid.
     pub max_relative_sd: f64,
+    /// The share of the acceleration that the model may leave unexplained; see [`crate::EstimatorConfig::max_misfit`].
+    pub max_misfit: Option<f64>,
     /// ε of the parameters (s): none is valid earlier.
     pub parameter_settle: f64,
     /// ε of the states (s): none is handed out earlier.
     pub state_settle: f64,
+    /// What makes a measurement one that cannot be true.
+    pub guard: GuardConfig,
     /// A position, or a body angle, of larger magnitude is rejected (m or rad). Up to 1e6.
     pub measurement_limit: f64,
     /// A force or torque with a larger component is rejected (N or N m). Up to 5e5.
@@ -105,7 +110,7 @@ impl Expected {
 impl GroupConfig {
     /// λ = 4 of the identifier as in the design's table, and `observer` as the observer's; q = λ/2. Every period measured, not
     /// late, no blocks, least squares with infinite memory, valid at 5 %.
-    fn with_observer(observer: f64) -> Self {
+    fn with_observer(observer: f64, max_misfit: f64, guard: GuardConfig) -> Self {
         Self {
             substeps: 1,
             latency: 0,
@@ -116,8 +121,10 @@ impl GroupConfig {
             readout: Readout::LeastSquares,
             memory: Memory::Infinite,
             max_relative_sd: 0.05,
+            max_misfit: Some(max_misfit),
             parameter_settle: 0.0,
             state_settle: 0.0,
+            guard,
             measurement_limit: 1e5,
             input_limit: 1e5,
         }
@@ -127,12 +134,17 @@ impl GroupConfig {
 impl VehicleConfig {
     /// λ = 4 of both identifiers, 10 and 20 of the observers of translation and rotation; gravity 9.81 m/s², mass between 1 g
     /// and 1000 kg, moments of inertia between 1e-7 and 1000 kg m², no nominal values: set [`mass`](Self::mass) and
-    /// [`inertia`](Self::inertia) to have a state from the second measurement on. No lag, no latency, no reaction to changes.
+    /// [`inertia`](Self::inertia) to have a state from the second measurement on. No lag, no latency, no reaction to changes. The gates are the default ones, but
+    /// for 200 rad/s² of an angular acceleration that the model may not know.
     pub fn new(period: f64) -> Self {
         Self {
             period,
-            translation: GroupConfig::with_observer(10.0),
-            rotation: GroupConfig::with_observer(20.0),
+            translation: GroupConfig::with_observer(10.0, 0.02, GuardConfig::default()),
+            rotation: GroupConfig::with_observer(
+                20.0,
+                0.1,
+                GuardConfig { acceleration: 200.0, ..GuardConfig::default() },
+            ),
             gravity: 9.81,
             mass: Expected::within(1e-3, 1e3),
             inertia: [Expected::within(1e-7, 1e3); 3],

@@ -47,6 +47,7 @@ fn common<const P: usize>(period: f64, group: &GroupConfig) -> EstimatorConfig<3
         noise_sd: group.noise_sd,
         readout: group.readout,
         memory: group.memory,
+        max_misfit: group.max_misfit,
         parameter_settle: group.parameter_settle,
         state_settle: group.state_settle,
         position_limit: group.measurement_limit,
@@ -103,7 +104,8 @@ macro_rules! groups {
     ($($function:ident, $group:literal, $drift:literal, $nominal:literal;)+) => {
         $(names!($function, $group, $drift, $nominal, [
             "substeps", "block", "identifier.lambda", "identifier.q", "observer.lambda", "observer.q", "noise_sd",
-            "memory.tau", "parameter_settle", "state_settle", "input_limit",
+            "memory.tau", "max_misfit", "parameter_settle", "state_settle", "input_limit", "guard.sigmas",
+            "guard.acceleration", "guard.floor", "guard.jump_after", "guard.bridge", "guard.frozen_after",
         ]);)+
     };
 }

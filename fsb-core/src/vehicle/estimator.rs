@@ -1,17 +1,21 @@
 //! The update, once per control period.
 
 use super::actuators::{Actuators, Course};
-use super::config::VehicleConfig;
+use super::change::Detector;
+use super::config::{GroupConfig, VehicleConfig};
 use super::delay::Delay;
 use super::design;
-use super::gyroscopic;
+use super::gyroscopic::{self, Gyroscopic};
 use super::measured::{Attitude, Measured, Wrench};
-use super::output::{Events, Group, Identified, VehicleCounters, VehicleModel};
+use super::output::{Events, VehicleCounters};
+use super::retroactive::Retroactive;
+use super::triple::{all, difference, each, positions, rates, within};
 use crate::attitude::{AttitudeError, BodyAngles};
 use crate::error::ConfigError;
-use crate::estimator::{AxisState, Estimator};
-use crate::moments::InputMoments;
-use crate::readout::{Parameter, ParameterStatus};
+use crate::estimator::Learning;
+use crate::guard::{Guarded, Verdict};
+use crate::moments::{InputMoments, Substep};
+use crate::readout::Memory;
 
 /// Mass, moments of inertia and state of a vehicle whose position and attitude are measured.
 ///
@@ -22,14 +26,18 @@ use crate::readout::{Parameter, ParameterStatus};
 /// account. An attitude that is missing, or measured less often than forces are given, is predicted for turning the force into
 /// the world frame.
 ///
-/// Non-finite policy: what is not finite or beyond its limit is rejected, counted and told in [`Events`]; a measurement is then
-/// missing, a force or torque is replaced by the one before. No allocation, no panic, no transcendental. Cost of an update: two
-/// estimators of three axes, and about 350 operations beside them (400 with a lag), of them 90 for the attitude, 45 for turning
-/// the force and 60 for the gyroscopic moment; it does not depend on the latency.
+/// What is not exact: within a control period the force turns along the chord between the attitudes at its ends, which leaves
+/// out (|ω| dt)²/12 of it, and the gyroscopic moment is held at its value in the middle. Actuators that lag are taken to have
+/// settled at what they are told in the first period.
+///
+/// Non-finite policy: what is not finite, beyond its limit or cannot be true ([`crate::guard`]) is rejected, counted and told in
+/// [`Events`]; a measurement is then missing, a force or torque is replaced by the one before. No allocation, no panic, no transcendental. Cost of an update: two
+/// estimators of three axes, and about 350 operations beside them (50 more with a lag, 260 with a rule for changes), of them 90
+/// for the attitude, 45 for turning the force and 200 for the gyroscopic moment; it does not depend on the latency.
 #[derive(Clone, Debug)]
 pub struct VehicleEstimator<const D: usize> {
-    pub(super) translation: Estimator<3, 1>,
-    pub(super) rotation: Estimator<3, 3>,
+    pub(super) translation: Guarded<3, 1>,
+    pub(super) rotation: Guarded<3, 3>,
     pub(super) angles: BodyAngles,
     pub(super) actuators: Actuators,
     /// What they do at the rotation's time; unknown before the first period.
@@ -42,11 +50,19 @@ pub struct VehicleEstimator<const D: usize> {
     pub(super) period: f32,
     /// The attitude was measured in the last update.
     pub(super) attitude_measured: bool,
+    position_limit: f32,
     force_limit: f32,
     torque_limit: f32,
     last: Wrench,
+    /// Attitudes in succession that were too far away to be followed, and how many make a start anew.
+    too_far: u32,
+    enough: u32,
+    /// Where the sums do not fade.
+    pub(super) retroactive: Option<Retroactive>,
+    pub(super) translation_change: Option<Detector>,
+    pub(super) rotation_change: Option<Detector>,
     begun: bool,
-    counters: VehicleCounters,
+    pub(super) counters: VehicleCounters,
 }
 
 impl<const D: usize> VehicleEstimator<D> {
@@ -55,8 +71,9 @@ impl<const D: usize> VehicleEstimator<D> {
     /// # Errors
     /// Names the first parameter that cannot be right, as it is written in [`VehicleConfig`].
     pub fn new(config: &VehicleConfig) -> Result<Self, ConfigError> {
-        let translation = Estimator::new(&design::translation(config)?).map_err(design::of_translation)?;
-        let rotation = Estimator::new(&design::rotation(config)?).map_err(design::of_rotation)?;
+        let translation =
+            Guarded::new(&design::translation(config)?, &config.translation.guard).map_err(design::of_translation)?;
+        let rotation = Guarded::new(&design::rotation(config)?, &config.rotation.guard).map_err(design::of_rotation)?;
         let (late, latest) = (config.rotation.latency, config.translation.latency);
         if latest as usize > D || latest < late {
             return Err(ConfigError::OutOfRange("translation.latency"));
@@ -71,9 +88,18 @@ impl<const D: usize> VehicleEstimator<D> {
             forces: Delay::new(latest - late),
             period: config.period as f32,
             attitude_measured: false,
+            position_limit: config.translation.measurement_limit as f32,
             force_limit: config.translation.input_limit as f32,
             torque_limit: config.rotation.input_limit as f32,
             last: Wrench::default(),
+            too_far: 0,
+            enough: config.rotation.guard.jump_after,
+            retroactive: match config.rotation.memory {
+                Memory::Infinite => Some(Retroactive::new(Substep::new(config.rotation.substeps)?)),
+                Memory::Fading { .. } => None,
+            },
+            translation_change: detector(config, &config.translation, true)?,
+            rotation_change: detector(config, &config.rotation, false)?,
             begun: false,
             counters: VehicleCounters::default(),
         })
@@ -117,54 +143,95 @@ impl<const D: usize> VehicleEstimator<D> {
         self.actual = Some(then);
         let mut torque = self.actuators.torque(&course);
         if let (Some(rates), Some(k)) = (rates(&self.rotation.states()), self.reciprocals()) {
-            add_gyroscopic(&mut torque, &rates, &k, 0.5 * self.period);
+            let Gyroscopic { products, differences } = Gyroscopic::add(&mut torque, &rates, &k, 0.5 * self.period);
+            if let Some(retroactive) = &mut self.retroactive {
+                retroactive.hold(&products, &differences);
+            }
         }
         self.rotation.apply_moments(&torque);
         course
     }
 
     fn take_attitude(&mut self, attitude: Option<&Attitude>, events: &mut Events) {
+        let before = self.angles;
         let taken = attitude.map(|attitude| self.angles.turn_to(&attitude.matrix()));
-        let angles = match taken {
-            Some(Ok(angles)) => Some(angles),
+        let mut angles = None;
+        match taken {
+            Some(Ok(turned)) => {
+                angles = Some(turned);
+                self.too_far = 0;
+            }
             Some(Err(AttitudeError::TurnTooLarge)) => {
-                events.attitude_lost = true;
-                self.rotation.restart();
-                Some(self.angles.angles())
+                self.too_far = self.too_far.saturating_add(1);
+                if self.too_far >= self.enough || positions(&self.rotation.states()).is_none() {
+                    events.attitude_lost = true;
+                    self.too_far = 0;
+                    self.rotation.restart();
+                    self.begin_rotation();
+                    angles = Some(self.angles.angles());
+                } else {
+                    // An outlier, unless it stays there.
+                    events.attitude_rejected = true;
+                    self.angles = before;
+                }
             }
-            Some(Err(_)) => {
+            Some(Err(_)) => events.attitude_rejected = true,
+            None => {}
+        }
+        if self.rotation.is_due() {
+            // In step, as it is due.
+            let verdicts = self.rotation.measure(&each(angles)).unwrap_or_default();
+            if angles.is_some() && !verdicts.iter().all(|verdict| verdict.is_used()) {
                 events.attitude_rejected = true;
-                None
+                angles = None;
+                self.angles = before;
             }
-            None => None,
-        };
+            self.look_back();
+            events.inertia_changed = self.inertia_has_changed();
+        }
         self.attitude_measured = angles.is_some();
         if angles.is_none()
             && let Some(predicted) = positions(&self.rotation.states())
         {
             self.angles.turn_by(&difference(&predicted, &self.angles.angles()));
         }
-        if self.rotation.is_due() {
-            // In step, as it is due.
-            let _ = self.rotation.measure(&each(angles));
+    }
+
+    /// The gyroscopic moment so far, with what is now known of the moments of inertia.
+    fn look_back(&mut self) {
+        let Some(retroactive) = &mut self.retroactive else { return };
+        let (valid, mut k) = (self.rotation.parameters(), self.rotation.prediction_parameters());
+        for ((k, valid), rough) in k.iter_mut().zip(valid).zip(self.rotation.rough_parameters()) {
+            *k = valid.map(|k| k.value).or(rough).or(*k);
+        }
+        let Some(k) = all(k) else { return };
+        let differences = gyroscopic::differences(&k.map(|k| 1.0 / k));
+        if let Some(shifts) = retroactive.measured(&self.rotation.identifier_view(), &differences) {
+            for (axis, shift) in shifts.iter().enumerate() {
+                self.rotation.shift_input(axis, shift.input, shift.denominator);
+            }
         }
     }
 
     fn take_position(&mut self, position: Option<[f32; 3]>, events: &mut Events) {
+        // Where one coordinate is nonsense the others are not to be trusted.
+        let sound = position.filter(|position| within(position, self.position_limit));
+        events.position_rejected = position.is_some() && sound.is_none();
         if self.translation.is_due() {
-            let before = self.translation.counters().rejected_measurements;
             // In step, as it is due.
-            let _ = self.translation.measure(&each(position));
-            events.position_rejected = self.translation.counters().rejected_measurements != before;
+            let verdicts = self.translation.measure(&each(sound)).unwrap_or_default();
+            if sound.is_some() {
+                events.position_rejected = verdicts.iter().any(|verdict| !verdict.is_used());
+                events.position_jumped = verdicts.iter().any(|verdict| matches!(verdict, Verdict::Jumped(_)));
+            }
+            events.mass_changed = self.mass_has_changed();
         } else {
-            events.position_out_of_step = position.is_some();
+            events.position_out_of_step = sound.is_some();
         }
     }
 
     /// Force and torque, each within its limit or else the one before.
     fn checked(&mut self, applied: &Wrench, events: &mut Events) -> Wrench {
-        // Written so that NaN fails it.
-        let within = |values: &[f32; 3], limit: f32| values.iter().all(|x| x.abs() <= limit);
         if within(&applied.force, self.force_limit) {
             self.last.force = applied.force;
         } else {
@@ -178,48 +245,23 @@ impl<const D: usize> VehicleEstimator<D> {
         self.last
     }
 
-    /// 1/I that is predicted with, where all three are known.
-    pub(super) fn reciprocals(&self) -> Option<[f32; 3]> {
-        all(self.rotation.prediction_parameters())
-    }
-
-    /// m (kg), where it is valid or held.
-    pub fn mass(&self) -> Option<Identified> {
-        let [k] = self.translation.parameters();
-        k.map(inverse)
-    }
-
-    /// I_x, I_y, I_z (kg m²), where they are valid or held.
-    pub fn inertia(&self) -> [Option<Identified>; 3] {
-        self.rotation.parameters().map(|k| k.map(inverse))
-    }
-
-    /// Why the mass is valid or not.
-    pub fn mass_status(&self) -> ParameterStatus {
-        let [status] = self.translation.parameter_status();
-        status
-    }
-
-    /// Why the moments of inertia are valid or not.
-    pub fn inertia_status(&self) -> [ParameterStatus; 3] {
-        self.rotation.parameter_status()
-    }
-
-    /// What the state is predicted with, and what a controller may divide by.
-    pub fn model(&self) -> VehicleModel {
-        let [k] = self.translation.prediction_parameters();
-        VehicleModel {
-            mass: k.map(|k| 1.0 / k),
-            inertia: self.rotation.prediction_parameters().map(|k| k.map(|k| 1.0 / k)),
+    /// Whether to learn from now on, as [`Estimator::set_learning`](crate::Estimator::set_learning): on the ground
+    /// [`Learning::Contact`].
+    pub fn set_learning(&mut self, learning: Learning) {
+        if learning != self.translation.learning() {
+            self.translation.set_learning(learning);
+            self.rotation.set_learning(learning);
+            self.begin_identification();
         }
     }
 
-    /// Identifies the parameters of a group anew, as after a change of load: what is known goes on being handed out and used
-    /// until the new value is valid.
-    pub fn reinitialise(&mut self, group: Group) {
-        match group {
-            Group::Translation => self.translation.reinitialise_identifier(),
-            Group::Rotation => self.rotation.reinitialise_identifier(),
+    /// The control loop has been late by so many control periods, in which the actuators did what they were told last. As
+    /// many updates with nothing measured, at most those that end in a start anew.
+    pub fn missed(&mut self, periods: u32) {
+        let last = self.last;
+        let most = self.translation.longest().max(self.rotation.longest());
+        for _ in 0..periods.min(most) {
+            self.update(&Measured::default(), &last);
         }
     }
 
@@ -227,65 +269,23 @@ impl<const D: usize> VehicleEstimator<D> {
     pub fn reset(&mut self) {
         self.translation.reset();
         self.rotation.reset();
+        self.begin_rotation();
+        if let Some(detector) = &mut self.translation_change {
+            detector.restart();
+        }
         self.angles = BodyAngles::default();
         self.wrenches.clear();
         self.forces.clear();
         self.actual = None;
         self.last = Wrench::default();
+        self.too_far = 0;
         self.attitude_measured = false;
         self.begun = false;
     }
-
-    /// The estimator of x, y, z: for its diagnostics.
-    pub const fn translation(&self) -> &Estimator<3, 1> {
-        &self.translation
-    }
-
-    /// The estimator of the body angles: for its diagnostics.
-    pub const fn rotation(&self) -> &Estimator<3, 3> {
-        &self.rotation
-    }
-
-    /// What has been rejected, lost or changed.
-    pub const fn counters(&self) -> VehicleCounters {
-        self.counters
-    }
 }
 
-/// Adds τ_g, held at its value in the middle of the period.
-pub(super) fn add_gyroscopic(torque: &mut [InputMoments; 3], rates: &[f32; 3], k: &[f32; 3], half_period: f32) {
-    let inertia = k.map(|k| 1.0 / k);
-    let own = gyroscopic::in_the_middle(&inertia, k, rates, &torque.map(|t| t.j1), half_period);
-    for (moment, f) in torque.iter_mut().zip(own) {
-        moment.j1 += f;
-        moment.j2 += 0.5 * f;
-    }
-}
-
-pub(super) fn positions(states: &[Option<AxisState>; 3]) -> Option<[f32; 3]> {
-    all(states.map(|state| state.map(|s| s.position)))
-}
-
-pub(super) fn rates(states: &[Option<AxisState>; 3]) -> Option<[f32; 3]> {
-    all(states.map(|state| state.map(|s| s.velocity)))
-}
-
-pub(super) fn difference([ax, ay, az]: &[f32; 3], [bx, by, bz]: &[f32; 3]) -> [f32; 3] {
-    [ax - bx, ay - by, az - bz]
-}
-
-/// All three, or nothing.
-fn all([x, y, z]: [Option<f32>; 3]) -> Option<[f32; 3]> {
-    Some([x?, y?, z?])
-}
-
-fn each(values: Option<[f32; 3]>) -> [Option<f32>; 3] {
-    values.map_or([None; 3], |values| values.map(Some))
-}
-
-/// 1/k with var(k)/k⁴.
-fn inverse(k: Parameter) -> Identified {
-    let value = 1.0 / k.value;
-    let square = value * value;
-    Identified { value, variance: (k.variance * square) * square }
+/// The detector of a group, where one is configured.
+fn detector(config: &VehicleConfig, group: &GroupConfig, pooled: bool) -> Result<Option<Detector>, ConfigError> {
+    let period = config.period * f64::from(group.substeps);
+    config.change.as_ref().map(|rule| Detector::new(rule, group.observer.lambda, period, pooled)).transpose()
 }

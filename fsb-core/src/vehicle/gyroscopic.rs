@@ -1,24 +1,51 @@
 //! The gyroscopic moment τ_g = -ω × I ω of (8), taken as an input beside the torque: I ω' = τ + τ_g.
 
-/// τ_g (N m) at the body rates ω (rad/s).
-pub(super) fn moment(inertia: &[f32; 3], rates: &[f32; 3]) -> [f32; 3] {
-    let ([ix, iy, iz], [p, q, r]) = (*inertia, *rates);
-    [(iy - iz) * q * r, (iz - ix) * r * p, (ix - iy) * p * q]
+use crate::moments::InputMoments;
+
+/// γ = I_j - I_k of each axis, so that τ_g = γ ω_j ω_k.
+pub(super) fn differences([ix, iy, iz]: &[f32; 3]) -> [f32; 3] {
+    [iy - iz, iz - ix, ix - iy]
 }
 
-/// τ_g in the middle of a control period that begins with the body rates `rates` and through which `torque` acts on the
-/// mean: to second order of the period. `k` is 1/I.
-pub(super) fn in_the_middle(
-    inertia: &[f32; 3],
+/// ω_j ω_k of each axis.
+fn products([p, q, r]: &[f32; 3]) -> [f32; 3] {
+    [q * r, r * p, p * q]
+}
+
+/// ω_j ω_k in the middle of a control period that begins with the body rates `rates` and through which `torque` acts on the
+/// mean: to second order of the period. `k` is 1/I, `differences` γ.
+fn products_in_the_middle(
+    differences: &[f32; 3],
     k: &[f32; 3],
     rates: &[f32; 3],
     torque: &[f32; 3],
     half_period: f32,
 ) -> [f32; 3] {
     let mut middle = *rates;
-    let turning = moment(inertia, rates);
-    for (((rate, k), applied), own) in middle.iter_mut().zip(k).zip(torque).zip(turning) {
-        *rate += half_period * (k * (applied + own));
+    let own = products(rates).into_iter().zip(differences);
+    for (((rate, k), applied), (product, gamma)) in middle.iter_mut().zip(k).zip(torque).zip(own) {
+        *rate += half_period * (k * (applied + gamma * product));
     }
-    moment(inertia, &middle)
+    products(&middle)
+}
+
+/// ω_j ω_k and γ of a period.
+pub(super) struct Gyroscopic {
+    pub products: [f32; 3],
+    pub differences: [f32; 3],
+}
+
+impl Gyroscopic {
+    /// Adds τ_g to the torque, held at its value in the middle of the period.
+    pub fn add(torque: &mut [InputMoments; 3], rates: &[f32; 3], k: &[f32; 3], half_period: f32) -> Self {
+        let gammas = differences(&k.map(|k| 1.0 / k));
+        let mean = torque.map(|t| t.j1);
+        let products = products_in_the_middle(&gammas, k, rates, &mean, half_period);
+        for (moment, (product, gamma)) in torque.iter_mut().zip(products.iter().zip(&gammas)) {
+            let f = gamma * product;
+            moment.j1 += f;
+            moment.j2 += 0.5 * f;
+        }
+        Self { products, differences: gammas }
+    }
 }

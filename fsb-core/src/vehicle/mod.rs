@@ -19,7 +19,7 @@
 //!     let measured = Measured { position: Some([0.0, 0.0, 1.0]), attitude: Some(Attitude::Quaternion([1.0, 0.0, 0.0, 0.0])) };
 //!     vehicle.update(&measured, &wrench);
 //!     let state = vehicle.state(); // now: compute the control
-//!     assert!(state.position.is_none_or(|[x, ..]| x == 0.0));
+//!     assert!(state.position.is_none_or(|[x, ..]| x.abs() < 1e-6));
 //!     wrench = Wrench { force: [0.0, 0.0, 2.5 * 9.81], torque: [0.0; 3] };
 //! }
 //! let mass = vehicle.mass().map(|m| m.value);
@@ -33,12 +33,18 @@
 //! | `measured` | what an update takes |
 //! | `output` | what is handed out |
 //! | `estimator` | the update |
+//! | `readings` | parameters and counters handed out |
 //! | `state` | the state now: predicted over what measurements are late |
 //! | `actuators` | first-order lag; moments of the force turned into the world frame |
 //! | `gyroscopic` | ω × I ω as an input |
+//! | `retroactive` | the same with moments of inertia that were not known at the time |
+//! | `change` | whether a parameter has changed |
+//! | `reinitialise` | parameters identified anew |
 //! | `delay` | inputs waiting for a measurement that comes late |
+//! | `triple` | three numbers, one for each axis of a group |
 
 mod actuators;
+mod change;
 mod config;
 mod delay;
 mod design;
@@ -46,7 +52,11 @@ mod estimator;
 mod gyroscopic;
 mod measured;
 mod output;
+mod readings;
+mod reinitialise;
+mod retroactive;
 mod state;
+mod triple;
 
 pub use config::{ChangeRule, Expected, GroupConfig, VehicleConfig};
 pub use estimator::VehicleEstimator;

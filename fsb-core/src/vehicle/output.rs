@@ -56,13 +56,15 @@ pub enum Group {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct Events {
-    /// An attitude was none, and was taken as missing.
+    /// An attitude was none, or cannot be true, and was taken as missing.
     pub attitude_rejected: bool,
     /// The attitude had turned by more than could be followed: the rotation's state begins anew, the moments of inertia are
     /// held.
     pub attitude_lost: bool,
-    /// A position was not finite or beyond its limit, and was taken as missing.
+    /// A position was not finite, beyond its limit or cannot be true, and was taken as missing.
     pub position_rejected: bool,
+    /// The origin of the positions has jumped: they were followed, and velocity and mass have not noticed.
+    pub position_jumped: bool,
     /// A position came between two measurement instants, and was not taken.
     pub position_out_of_step: bool,
     /// A force or a torque was not finite or beyond its limit; the one before was taken in its place.
@@ -85,12 +87,14 @@ impl Events {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct VehicleCounters {
-    /// Attitudes that were none.
+    /// Attitudes that were none, or could not be true.
     pub rejected_attitudes: u32,
     /// Times the attitude could not be followed.
     pub lost_attitudes: u32,
-    /// Positions that were not finite or beyond their limit.
+    /// Positions that were not finite, beyond their limit or could not be true.
     pub rejected_positions: u32,
+    /// Jumps of the origin of positions.
+    pub position_jumps: u32,
     /// Positions between two measurement instants.
     pub positions_out_of_step: u32,
     /// Wrenches of which the force or the torque was replaced.
@@ -108,6 +112,7 @@ impl VehicleCounters {
             (&mut self.rejected_attitudes, events.attitude_rejected),
             (&mut self.lost_attitudes, events.attitude_lost),
             (&mut self.rejected_positions, events.position_rejected),
+            (&mut self.position_jumps, events.position_jumped),
             (&mut self.positions_out_of_step, events.position_out_of_step),
             (&mut self.rejected_wrenches, events.wrench_rejected),
             (&mut self.mass_changes, events.mass_changed),

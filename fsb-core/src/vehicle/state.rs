@@ -1,7 +1,9 @@
 //! The state now: that of the estimators, and what was applied since the measurements they know were true.
 
-use super::estimator::{VehicleEstimator, add_gyroscopic, difference, positions, rates};
+use super::estimator::VehicleEstimator;
+use super::gyroscopic::Gyroscopic;
 use super::output::VehicleState;
+use super::triple::{difference, positions, rates};
 use crate::attitude::rotation::{self, Matrix};
 use crate::estimator::AxisState;
 use crate::moments::InputMoments;
@@ -69,7 +71,7 @@ impl<const D: usize> VehicleEstimator<D> {
     /// Over one control period.
     fn advance(&self, ahead: &mut Ahead, mut torque: [InputMoments; 3]) {
         let Some(k) = self.reciprocals() else { return };
-        add_gyroscopic(&mut torque, &ahead.rates, &k, 0.5 * self.period);
+        Gyroscopic::add(&mut torque, &ahead.rates, &k, 0.5 * self.period);
         let before = ahead.angles;
         for (((angle, rate), input), k) in ahead.angles.iter_mut().zip(&mut ahead.rates).zip(&torque).zip(k) {
             let gain = k * self.period;

@@ -2,7 +2,8 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `paper` | Section V with its table, figures and statistics; also what runs without arguments |
+//! | `paper` | Section V with its table, figures and statistics; runs without arguments too |
+//! | `fly` | the hexarotor in six degrees of freedom; its `spiral` runs without arguments too |
 //! | `replay` | a recorded flight through the core |
 //! | `efficiency` | the spread of k̂ against the Cramér-Rao bound |
 //! | `exactness` | what rounding to f32 leaves of the errors |
@@ -17,6 +18,7 @@
 mod efficiency;
 mod exactness;
 mod faults;
+mod fly;
 mod paper;
 mod replay;
 mod soak;
@@ -32,7 +34,7 @@ const EXIT_STATUS: &str = "Exit status: 0 done; 1 it failed, or what the command
 
 /// k and the state of a multirotor from noisy positions: the paper reproduced, and what the f32 core is worth.
 ///
-/// Without a command: `fsb paper` with its defaults.
+/// Without a command: `fsb paper` and `fsb fly`, each with its defaults.
 #[derive(Debug, Parser)]
 #[command(name = "fsb", version, after_help = EXIT_STATUS)]
 struct Cli {
@@ -44,6 +46,8 @@ struct Cli {
 enum Command {
     #[command(after_help = EXIT_STATUS)]
     Paper(paper::Args),
+    #[command(after_help = EXIT_STATUS)]
+    Fly(fly::Args),
     #[command(after_help = EXIT_STATUS)]
     Replay(replay::Args),
     #[command(after_help = EXIT_STATUS)]
@@ -73,13 +77,9 @@ impl<E: Into<anyhow::Error>> From<E> for Failure {
 
 /// Runs the command of this process.
 pub fn run() -> ExitCode {
-    let done = match Cli::parse().command.unwrap_or_else(|| Command::Paper(paper::Args::default())) {
-        Command::Paper(args) => paper::run(&args),
-        Command::Replay(args) => replay::run(&args).map(|()| ExitCode::SUCCESS),
-        Command::Efficiency(args) => efficiency::run(&args),
-        Command::Exactness(args) => exactness::run(&args),
-        Command::Faults(args) => faults::run(&args),
-        Command::Soak(args) => soak::run(&args),
+    let done = match Cli::parse().command {
+        None => both(),
+        Some(command) => run_command(&command),
     };
     match done {
         Ok(status) => status,
@@ -91,6 +91,24 @@ pub fn run() -> ExitCode {
             eprintln!("error: {error:#}");
             ExitCode::FAILURE
         }
+    }
+}
+
+/// The paper, then the vehicle; the first that is not well ends it.
+fn both() -> Result<ExitCode, Failure> {
+    let status = paper::run(&paper::Args::default())?;
+    if status == ExitCode::SUCCESS { fly::run(&fly::Args::default()) } else { Ok(status) }
+}
+
+fn run_command(command: &Command) -> Result<ExitCode, Failure> {
+    match command {
+        Command::Paper(args) => paper::run(args),
+        Command::Fly(args) => fly::run(args),
+        Command::Replay(args) => replay::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Efficiency(args) => efficiency::run(args),
+        Command::Exactness(args) => exactness::run(args),
+        Command::Faults(args) => faults::run(args),
+        Command::Soak(args) => soak::run(args),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::{
     chart::{Chart, ChartError},
     escape::escape,
+    scene::Scene,
     table::{Cell, Column, Table},
 };
 
@@ -39,6 +40,8 @@ pub enum Block {
     Table(Table),
     /// A figure; its title and caption stand below it.
     Figure(Chart),
+    /// Lines in space; title and caption stand below.
+    Scene(Scene),
 }
 
 /// How a page was made. Give neither dates nor paths of a machine: the same run must give the same page.
@@ -87,7 +90,11 @@ impl Page {
             out.push_str("</section>\n");
         }
         out.push_str(&self.how.html());
-        out.push_str("</main>\n</body>\n</html>\n");
+        out.push_str("</main>\n");
+        if self.sections.iter().flat_map(|section| &section.blocks).any(|block| matches!(block, Block::Scene(_))) {
+            out.push_str(&Scene::script());
+        }
+        out.push_str("</body>\n</html>\n");
         Ok(out)
     }
 
@@ -118,6 +125,7 @@ impl Block {
             Self::Text(_) => "",
             Self::Table(table) => &table.title,
             Self::Figure(chart) => &chart.title,
+            Self::Scene(scene) => &scene.title,
         }
     }
 
@@ -131,6 +139,13 @@ impl Block {
                 chart.to_svg_untitled()?,
                 escape(&chart.title),
                 escape(&chart.caption)
+            )),
+            Self::Scene(scene) => out.push_str(&format!(
+                "<figure id=\"{id}\">\n<div class=\"drawing\">\n{}</div>\n\
+                 <figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n",
+                scene.to_svg(),
+                escape(&scene.title),
+                escape(&scene.caption)
             )),
         }
         Ok(())

@@ -17,6 +17,7 @@ mod legend;
 mod measure;
 mod palette;
 mod plot;
+pub mod scene;
 pub mod table;
 mod ticks;
 pub mod write;

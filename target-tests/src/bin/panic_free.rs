@@ -11,6 +11,7 @@ use fsb_core::estimator::{AxisState, Learning};
 use fsb_core::guard::{GuardConfig, Guarded};
 use fsb_core::moments::InputMoments;
 use fsb_core::readout::{Memory, ParameterRule, Readout};
+use fsb_core::vehicle::{Attitude, ChangeRule, Expected, Group, Measured, VehicleConfig, VehicleEstimator, Wrench};
 use fsb_core::{Estimator, EstimatorConfig, EstimatorDesign, Tuning};
 use fsb_firmware::attitude_from_quaternion;
 use panic_never as _;
@@ -25,6 +26,8 @@ fn main() -> ! {
         estimator::<6, 6>();
         guarded::<1, 1>();
         guarded::<3, 3>();
+        vehicle::<1>();
+        vehicle::<16>();
         controller();
         whole_loop();
         #[cfg(feature = "demonstrate")]
@@ -74,6 +77,7 @@ fn estimator<const N: usize, const P: usize>() {
             18 => estimator.translate(&black_box([0.0; N])),
             19 => drop(black_box(estimator.snapshot(black_box(&mut [0; 4096])))),
             20 => drop(black_box(estimator.restore(black_box(&[0; 4096])))),
+            21 => drop(black_box((estimator.prediction_parameters(), estimator.is_due()))),
             _ => return,
         }
     }
@@ -115,6 +119,43 @@ fn config<const N: usize, const P: usize>() -> EstimatorConfig<N, P> {
     config.position_limit = black_box(1e5);
     config.input_limit = black_box(1e5);
     config
+}
+
+fn vehicle<const D: usize>() {
+    let mut config = VehicleConfig::new(black_box(1e-3));
+    for group in [&mut config.translation, &mut config.rotation] {
+        group.substeps = black_box(1);
+        group.latency = black_box(0);
+        group.block = black_box(1);
+        group.memory = if black_box(true) { Memory::Infinite } else { Memory::Fading { tau: black_box(1.0) } };
+    }
+    config.gravity = black_box(9.81);
+    config.mass = black_box(Expected::about(1.0));
+    config.inertia = black_box([Expected::within(0.01, 0.1); 3]);
+    config.actuator_lag = black_box(None);
+    config.change = black_box(Some(ChangeRule::default()));
+    let Ok(vehicle) = VehicleEstimator::<D>::new(&config) else { return };
+    let mut vehicle = black_box(vehicle);
+    loop {
+        match black_box(0_u32) {
+            0 => {
+                let attitude = match black_box(0_u32) {
+                    0 => Some(Attitude::Matrix(black_box([[0.0; 3]; 3]))),
+                    1 => Some(Attitude::Quaternion(black_box([1.0, 0.0, 0.0, 0.0]))),
+                    _ => None,
+                };
+                let measured = Measured { position: black_box(Some([0.0; 3])), attitude };
+                drop(black_box(vehicle.update(&measured, &black_box(Wrench::default()))));
+            }
+            1 => drop(black_box(vehicle.state())),
+            2 => drop(black_box((vehicle.mass(), vehicle.mass_status(), vehicle.model(), vehicle.counters()))),
+            3 => drop(black_box((vehicle.inertia(), vehicle.inertia_status()))),
+            4 => vehicle.reinitialise(if black_box(true) { Group::Translation } else { Group::Rotation }),
+            5 => vehicle.reset(),
+            6 => drop(black_box((vehicle.translation().states(), vehicle.rotation().states()))),
+            _ => return,
+        }
+    }
 }
 
 fn controller() {

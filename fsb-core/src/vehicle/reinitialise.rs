@@ -1,0 +1,82 @@
+//! Parameters identified anew: by hand, after a change, after an attitude that could not be followed.
+
+use super::estimator::VehicleEstimator;
+use super::output::Group;
+use crate::estimator::Estimator;
+use crate::readout::ParameterStatus;
+
+impl<const D: usize> VehicleEstimator<D> {
+    /// Identifies the parameters of a group anew, as after a change of load: what is known goes on being handed out and used
+    /// until the new value is valid.
+    pub fn reinitialise(&mut self, group: Group) {
+        match group {
+            Group::Translation => {
+                self.translation.reinitialise_identifier();
+                if let Some(detector) = &mut self.translation_change {
+                    detector.reset();
+                }
+            }
+            Group::Rotation => {
+                self.rotation.reinitialise_identifier();
+                if let Some(retroactive) = &mut self.retroactive {
+                    retroactive.reset();
+                }
+                if let Some(detector) = &mut self.rotation_change {
+                    detector.reset();
+                }
+            }
+        }
+    }
+
+    /// What goes with the identifiers begins anew with them.
+    pub(super) fn begin_identification(&mut self) {
+        if let Some(retroactive) = &mut self.retroactive {
+            retroactive.reset();
+        }
+        for detector in [&mut self.translation_change, &mut self.rotation_change].into_iter().flatten() {
+            detector.reset();
+        }
+    }
+
+    /// What goes with the rotation begins anew with it.
+    pub(super) fn begin_rotation(&mut self) {
+        if let Some(retroactive) = &mut self.retroactive {
+            retroactive.reset();
+        }
+        if let Some(detector) = &mut self.rotation_change {
+            detector.restart();
+        }
+    }
+
+    /// Looks for a change after a measurement instant of the group, and acts on it.
+    pub(super) fn mass_has_changed(&mut self) -> bool {
+        let Some(detector) = &mut self.translation_change else { return false };
+        let [k] = identified(&self.translation);
+        let changed = detector.observe(&self.translation.innovation_view(), &[k, None, None]);
+        if changed {
+            self.reinitialise(Group::Translation);
+        }
+        changed
+    }
+
+    /// Looks for a change after a measurement instant of the group, and acts on it.
+    pub(super) fn inertia_has_changed(&mut self) -> bool {
+        let Some(detector) = &mut self.rotation_change else { return false };
+        let changed = detector.observe(&self.rotation.innovation_view(), &identified(&self.rotation));
+        if changed {
+            self.reinitialise(Group::Rotation);
+        }
+        changed
+    }
+}
+
+/// k of the parameters that are valid now, not held.
+fn identified<const P: usize>(estimator: &Estimator<3, P>) -> [Option<f32>; P] {
+    let mut values = estimator.parameters().map(|k| k.map(|k| k.value));
+    for (value, status) in values.iter_mut().zip(estimator.parameter_status()) {
+        if status != ParameterStatus::Valid {
+            *value = None;
+        }
+    }
+    values
+}

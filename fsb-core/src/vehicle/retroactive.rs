@@ -1,0 +1,142 @@
+//! The gyroscopic moment with the newest moments of inertia, in retrospect.
+//!
+//! What went into the identifier beside the torque is γ₀(t) w(t), w = ω_j ω_k, with the γ = I_j - I_k of its time; with a rough
+//! first guess that stays in sums over everything. Two more cascades per axis, of w and of γ₀ w, and their correlations with
+//! ẑ0 tell by how much: with A = Σ ẑ0 ẑ_w and B = Σ ẑ0 ẑ_(γ₀w)
+//!
+//! Σ ẑ0 ẑ2 = k (Σ ẑ0² + γ A - B)
+//!
+//! holds for the true γ, whatever γ₀ was. The bracket replaces the parameter's denominator as γ becomes better known, and ẑ0
+//! itself moves to the newest γ: a fixed point, one step of it per step of the identifier. Exact for blocks of one; for longer ones w lags by a part of a block, which
+//! matters to the difference γ - γ₀ alone.
+//!
+//! For sums with infinite memory; sums that fade forget the first guess by themselves.
+
+use crate::accumulator::Accumulator;
+use crate::estimator::IdentifierView;
+use crate::moments::{InputMoments, Substep};
+
+/// One cascade for an input: x4, x5, x6 of (38).
+#[derive(Clone, Copy, Debug, Default)]
+struct Chain {
+    /// Over the present interval.
+    moments: InputMoments,
+    /// j1 - j2 of the interval before.
+    past: f32,
+    /// Σ S in the block, and its mean over the block before.
+    sum: f32,
+    before: f32,
+    x: [f32; 3],
+}
+
+impl Chain {
+    /// The interval has ended. The identity's S joins the block.
+    fn sample(&mut self) {
+        self.sum += self.moments.j2 + self.past;
+        self.past = self.moments.j1 - self.moments.j2;
+        self.moments = InputMoments::ZERO;
+    }
+
+    fn step(&mut self, view: &IdentifierView<3>) -> f32 {
+        let mean = self.sum * view.per_length;
+        self.sum = 0.0;
+        // The S of a block's mean is a mean over two blocks.
+        let s = if view.per_length == 1.0 { mean } else { 0.5 * (mean + self.before) };
+        self.before = mean;
+        let [x4, x5, x6] = &mut self.x;
+        *x6 += view.c * (view.weight * (s * view.scale) - *x6);
+        *x5 += view.c * (*x6 - *x5);
+        *x4 += view.c * (*x5 - *x4);
+        *x4
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Axis {
+    /// Of w.
+    own: Chain,
+    /// Of γ₀ w.
+    used: Chain,
+    a: Accumulator,
+    b: Accumulator,
+    /// γ A - B as it stands in the parameter's denominator.
+    applied: f32,
+}
+
+/// What is to be added to the identifier of an axis.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Shift {
+    /// x4, x5, x6 of the cascade.
+    pub input: [f32; 3],
+    /// Σ ω ẑ0 of the parameter.
+    pub denominator: f32,
+}
+
+/// Three axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Retroactive {
+    axes: [Axis; 3],
+    blocks: u32,
+    substep: Substep,
+}
+
+impl Retroactive {
+    /// The correction's largest share of the denominator: beyond, the torque is too small beside the gyroscopic moment for
+    /// the fixed point to be one.
+    const LARGEST: f32 = 0.5;
+
+    pub fn new(substep: Substep) -> Self {
+        Self { axes: [Axis::default(); 3], blocks: 0, substep }
+    }
+
+    /// With the identification.
+    pub fn reset(&mut self) {
+        *self = Self::new(self.substep);
+    }
+
+    /// A control period with w and the γ₀ that was used with it.
+    pub fn hold(&mut self, products: &[f32; 3], used: &[f32; 3]) {
+        for ((axis, w), gamma) in self.axes.iter_mut().zip(products).zip(used) {
+            axis.own.moments.hold(*w, &self.substep);
+            axis.used.moments.hold(gamma * w, &self.substep);
+        }
+    }
+
+    /// After a measurement instant: what has to change. `differences` are the newest γ. Nothing, where the identifier has not
+    /// stepped. Cost: about 150 operations per step of the identifier.
+    pub fn measured(&mut self, view: &IdentifierView<3>, differences: &[f32; 3]) -> Option<[Shift; 3]> {
+        for axis in &mut self.axes {
+            axis.own.sample();
+            axis.used.sample();
+        }
+        let mut shifts = [Shift::default(); 3];
+        if view.blocks < self.blocks {
+            self.reset();
+        }
+        if view.blocks == self.blocks {
+            return None;
+        }
+        self.blocks = view.blocks;
+        let of_axes = view.z0.iter().zip(view.counts).zip(view.denominators).zip(differences);
+        for ((axis, shift), (((z0, counts), denominator), gamma)) in self.axes.iter_mut().zip(&mut shifts).zip(of_axes)
+        {
+            let (own, used) = (axis.own.step(view), axis.used.step(view));
+            if counts {
+                axis.a.add_folded(z0 * own);
+                axis.b.add_folded(z0 * used);
+            }
+            let correction = gamma * axis.a.value() - axis.b.value();
+            let limit = Self::LARGEST * (denominator - axis.applied);
+            if correction.abs() <= limit {
+                shift.denominator = correction - axis.applied;
+                axis.applied = correction;
+            }
+            for ((shift, used), own) in shift.input.iter_mut().zip(&mut axis.used.x).zip(axis.own.x) {
+                let wanted = gamma * own;
+                *shift = wanted - *used;
+                *used = wanted;
+            }
+        }
+        Some(shifts)
+    }
+}

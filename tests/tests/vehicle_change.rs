@@ -1,0 +1,157 @@
+//! A load dropped in flight, and the value held until the new one is known.
+
+use fsb_core::estimator::StateStatus;
+use fsb_core::readout::ParameterStatus;
+use fsb_core::vehicle::{ChangeRule, Events, Expected, Group, VehicleConfig, VehicleEstimator};
+use fsb_tests::rigid_body::RigidBody;
+use fsb_tests::six_axes::{Course, Flight};
+
+const PERIOD: f64 = 0.01;
+
+fn config() -> VehicleConfig {
+    let truth = RigidBody::default();
+    let mut config = VehicleConfig::new(PERIOD);
+    config.mass = Expected::about(1.3 * truth.mass);
+    config.inertia = truth.inertia.map(|i| Expected::about(1.3 * i));
+    config.change = Some(ChangeRule::default());
+    config
+}
+
+fn noisy(course: Course, seed: u64) -> Flight {
+    let mut flight = Flight::new(RigidBody::default(), course, PERIOD, seed);
+    flight.position_noise = 1e-3;
+    flight.attitude_noise = 0.1_f64.to_radians();
+    flight
+}
+
+/// Flies to `end` s on what is estimated.
+fn fly(
+    flight: &mut Flight,
+    vehicle: &mut VehicleEstimator<1>,
+    end: f64,
+    mut each: impl FnMut(&mut Flight, &mut VehicleEstimator<1>, Events),
+) {
+    let mut wrench = flight.pilot();
+    while flight.t() < end - 1e-9 {
+        let events = vehicle.update(&flight.measure(), &wrench);
+        each(flight, vehicle, events);
+        wrench = flight.pilot_on(&flight.seen(&vehicle.state()));
+        flight.step(&wrench);
+    }
+}
+
+fn mass(vehicle: &VehicleEstimator<1>) -> f64 {
+    vehicle.mass().map_or(f64::INFINITY, |m| f64::from(m.value))
+}
+
+/// 40 % of the mass dropped, 1 mm at 100 Hz: the new mass to 2 % within 0.7 s, and from then on.
+#[test]
+fn a_dropped_load() {
+    let mut worst = (0.0_f64, 0.0_f64);
+    for course in [Course::HOVER, Course::AGGRESSIVE] {
+        for seed in 1..=50 {
+            let (mut told, mut known) = (f64::INFINITY, f64::INFINITY);
+            let mut vehicle = VehicleEstimator::new(&config()).unwrap();
+            fly(&mut noisy(course, seed), &mut vehicle, 8.0, |flight, vehicle, events| {
+                let since = flight.t() - 5.0;
+                assert!(!events.inertia_changed && (!events.mass_changed || since > 0.0), "{course:?} {seed}: {since}");
+                if events.mass_changed {
+                    told = told.min(since);
+                }
+                if since > 0.0 {
+                    let right = (mass(vehicle) / flight.body.mass - 1.0).abs() < 0.02;
+                    known = if right { known.min(since) } else { f64::INFINITY };
+                } else if since.abs() < 1e-9 {
+                    flight.body.mass *= 0.6;
+                }
+            });
+            worst = (worst.0.max(told), worst.1.max(known));
+        }
+    }
+    println!("told after {:.2} s at the latest, known to 2 % after {:.2} s at the latest", worst.0, worst.1);
+    assert!(worst.1 < 0.7, "{worst:?}");
+}
+
+/// The moments of inertia likewise, where there is something to see them by.
+#[test]
+fn a_dropped_inertia() {
+    let mut vehicle = VehicleEstimator::new(&config()).unwrap();
+    let mut told = None;
+    fly(&mut noisy(Course::AGGRESSIVE, 3), &mut vehicle, 10.0, |flight, vehicle, events| {
+        if (flight.t() - 5.0).abs() < 1e-9 {
+            flight.body.inertia = flight.body.inertia.map(|i| 0.6 * i);
+        }
+        assert!(!events.mass_changed && (!events.inertia_changed || flight.t() > 5.0), "{}", flight.t());
+        if events.inertia_changed && told.is_none() {
+            told = Some(flight.t() - 5.0);
+            assert_eq!(vehicle.inertia_status(), [ParameterStatus::Held; 3]);
+        }
+    });
+    let truth = RigidBody::default().inertia;
+    let errors = [0, 1, 2].map(|i| f64::from(vehicle.inertia()[i].unwrap().value) / (0.6 * truth[i]) - 1.0);
+    println!("told after {told:?} s; after 5 s off by {errors:.4?}");
+    assert!(told.unwrap() < 1.0 && errors.iter().all(|e| e.abs() < 0.02));
+}
+
+fn alarms(course: Course, disturbance: [f64; 3], seconds: f64, seed: u64) -> u32 {
+    let mut vehicle = VehicleEstimator::new(&config()).unwrap();
+    let mut flight = noisy(course, seed);
+    flight.body.disturbance = disturbance;
+    fly(&mut flight, &mut vehicle, seconds, |_, _, _| ());
+    vehicle.counters().mass_changes + vehicle.counters().inertia_changes
+}
+
+/// No false alarm in ten minutes of hover and of flight, also with a force across the thrust of a tenth of the weight.
+#[test]
+fn no_false_alarm() {
+    for (course, disturbance) in
+        [(Course::HOVER, [0.0; 3]), (Course::AGGRESSIVE, [0.0; 3]), (Course::HOVER, [2.5, 0.0, 0.0])]
+    {
+        assert_eq!(alarms(course, disturbance, 600.0, 7), 0, "{course:?} {disturbance:?}");
+    }
+}
+
+/// The same over ten hours each; takes a minute or two.
+#[test]
+#[ignore = "long"]
+fn no_false_alarm_in_ten_hours() {
+    for course in [Course::HOVER, Course::AGGRESSIVE] {
+        assert_eq!(alarms(course, [0.0; 3], 36_000.0, 11), 0, "{course:?}");
+    }
+}
+
+/// A re-initialisation by hand: the old value is handed out and predicted with until the new one takes over.
+#[test]
+fn held_until_known() {
+    let mut config = config();
+    config.change = None;
+    config.mass.nominal = None;
+    let mut vehicle = VehicleEstimator::new(&config).unwrap();
+    let (mut before, mut held_for, mut worst) = (0.0, 0, 0.0_f64);
+    fly(&mut noisy(Course::HOVER, 5), &mut vehicle, 6.0, |flight, vehicle, _| {
+        let status = vehicle.mass_status();
+        if (flight.t() - 4.0).abs() < 1e-9 {
+            assert_eq!(status, ParameterStatus::Valid);
+            before = mass(vehicle);
+            vehicle.reinitialise(Group::Translation);
+            assert_eq!(vehicle.mass_status(), ParameterStatus::Held);
+            assert_eq!(vehicle.translation().state_status(), [StateStatus::Held; 3]);
+            assert!(!vehicle.inertia_status().contains(&ParameterStatus::Held));
+        } else if status == ParameterStatus::Held {
+            held_for += 1;
+            assert_eq!(mass(vehicle), before);
+            assert_eq!(f64::from(vehicle.model().mass.unwrap()), before);
+        } else if flight.t() > 4.0 {
+            assert_eq!(status, ParameterStatus::Valid, "no gap after it");
+        }
+        if flight.t() > 2.0 {
+            let velocity = vehicle.state().velocity.expect("all the time");
+            worst = (0..3).map(|i| (f64::from(velocity[i]) - flight.body.velocity[i]).abs()).fold(worst, f64::max);
+        }
+    });
+    println!("held for {held_for} instants; velocity off by at most {worst:.4} m/s");
+    assert!((5..100).contains(&held_for) && mass(&vehicle) != before);
+    // Eight standard deviations of the observer's own noise: 1 mm, λ = 10 at 100 Hz.
+    let p = (-0.1_f64).exp();
+    assert!(worst < 8.0 * 1e-3 / PERIOD * (2.0 * (1.0 - p).powi(3) / (1.0 + p).powi(3)).sqrt(), "{worst}");
+}
