@@ -2,6 +2,7 @@
 //! f64 (`twin`), plants, the paper's Section V in closed loop, log replay and reports.
 
 pub mod exactness;
+pub mod faults;
 pub mod fly;
 pub mod hexarotor;
 pub mod paper_form;

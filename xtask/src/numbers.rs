@@ -7,6 +7,7 @@
 //! | `budgets` | what a tick costs on the target |
 //! | `compare` | the same but for the last digit |
 //! | `examples` | the programs shown |
+//! | `faults` | bad input and faults |
 //! | `figure` | the figure shown |
 //! | `fly` | simulated flights |
 //! | `flights` | recorded flights, where there are any |
@@ -18,6 +19,7 @@ mod blocks;
 mod budgets;
 mod compare;
 mod examples;
+mod faults;
 mod figure;
 mod flights;
 mod fly;
@@ -35,7 +37,7 @@ use compare::{Tolerance, same};
 use measured::Measured;
 
 /// The documents that hold blocks.
-const DOCUMENTS: &[&str] = &["README.md", "fsb-core/README.md"];
+const DOCUMENTS: &[&str] = &["README.md", "fsb-core/README.md", "docs/robustness.md"];
 
 /// Compares every block with what the commands print now; with `--write` on the command line it is written instead.
 pub fn run() -> Result<()> {
@@ -83,6 +85,10 @@ fn content(block: &Block, measured: &Measured) -> Result<Option<(String, Toleran
         "efficiency" => Some((tables::efficiency(&measured.efficiency)?, Tolerance::LastDigit)),
         "exactness" => Some((tables::exactness(&measured.exactness, &|_| true)?, Tolerance::Rounding)),
         "exactness-short" => Some((tables::exactness(&measured.exactness, &tables::in_short)?, Tolerance::Rounding)),
+        "recovery" => Some((faults::recovery(&measured.faults["bad_measurements"])?, Tolerance::LastDigit)),
+        "recovery-inputs" => Some((faults::recovery(&measured.faults["bad_inputs"])?, Tolerance::LastDigit)),
+        "bursts" => Some((faults::bursts(&measured.faults["bursts"])?, Tolerance::LastDigit)),
+        "jitter" => Some((faults::jitter(&measured.faults["jitter"])?, Tolerance::LastDigit)),
         "cost" => Some((budgets::table()?, Tolerance::None)),
         "fly" => Some((fly::scenarios()?, Tolerance::LastDigit)),
         "fly-random" => Some((fly::random()?, Tolerance::LastDigit)),

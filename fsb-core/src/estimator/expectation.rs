@@ -40,7 +40,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             && self.parameters.iter().all(|parameter| parameter.status != ParameterStatus::Faulted)
     }
 
-    /// The observers' innovations at the last measurement instant.
+    /// What the measurements were off from what was expected; zero where it was missed. For a state that has been put elsewhere
+    /// since, what it would have been from there.
     pub(crate) fn innovations(&self) -> [f32; N] {
         self.frame.axes.each_ref().map(|axis| axis.observer.innovation())
     }

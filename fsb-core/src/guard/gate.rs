@@ -6,7 +6,7 @@ use super::verdict::Verdict;
 /// What the gate of one axis remembers.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Gate {
-    /// V: the mean square of the innovation's step.
+    /// V: the mean square of the innovation's step, as far as [`Gate::learn`] lets single values count.
     level: f32,
     /// Values in it; saturates.
     values: u16,
@@ -29,15 +29,23 @@ impl Gate {
     const ENOUGH: u16 = 8;
     /// The longest memory of the level, in values.
     const MEMORY: u16 = 128;
-    /// One value counts for no more than so many times the level: an outlier that passed does not open the gate.
-    const MOST: f32 = 16.0;
+    /// One value counts for no more than so many times the level: outliers that passed do not keep the gate open, as long as
+    /// they are fewer than an eighth of all.
+    const MOST: f32 = 4.0;
+    /// Values below this share of the level are rare where the level is right, and the rule where outliers in the first few
+    /// values have made it.
+    const LOW: f32 = 1.0 / 64.0;
+    /// They count as much as one in so many.
+    const HASTE: u16 = 32;
+    /// The level that normal noise of variance 1 ends at, by the rules above.
+    const OF_NORMAL: f32 = 0.66;
     /// The level cannot come closer to the subnormal numbers.
     const LEAST: f32 = 1e-24;
 
     /// A level known beforehand, of the innovation's steps.
     pub fn expecting(level: Option<f32>) -> Self {
         match level {
-            Some(level) => Self { level, values: Self::ENOUGH, ..Self::default() },
+            Some(level) => Self { level: Self::OF_NORMAL * level, values: Self::ENOUGH, ..Self::default() },
             None => Self::default(),
         }
     }
@@ -74,7 +82,7 @@ impl Gate {
         if !settled {
             return Verdict::Taken;
         }
-        let noise = design.sigmas2 * self.level;
+        let noise = design.sigmas2 * (1.0 / Self::OF_NORMAL) * self.level;
         let gap = f32::from(self.gap);
         let stretch = 1.0 + design.lambda_t * gap;
         // A large innovation is on its way back to zero.
@@ -98,9 +106,12 @@ impl Gate {
         Verdict::Improbable
     }
 
-    /// After a measurement that was used: the observer's innovation, which a seeding of the observer has changed too.
-    pub fn used(&mut self, innovation: f32) {
-        self.innovation = innovation;
+    /// What the observer's innovation has become: where the measurement was used it is the gate's own, but for a state that
+    /// was put elsewhere meanwhile, as with the first valid parameter. That is no step of the sensor.
+    pub fn follow(&mut self, innovation: f32, design: &GuardDesign) {
+        if self.gap == 0 || innovation.abs() > design.step {
+            self.innovation = innovation;
+        }
     }
 
     /// Measurement instants since a measurement was used.
@@ -130,7 +141,9 @@ impl Gate {
         if self.values < Self::MEMORY {
             self.values += 1;
         }
-        self.level += (square - self.level) / f32::from(self.values);
+        let hasty = self.values > Self::HASTE && square < Self::LOW * self.level;
+        let memory = if hasty { Self::HASTE } else { self.values };
+        self.level += (square - self.level) / f32::from(memory);
         if self.level < Self::LEAST {
             self.level = Self::LEAST;
         }

@@ -92,11 +92,8 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
             self.estimator.translate(&moved);
         }
         self.estimator.measure_raw(&given)?;
-        for ((gate, verdict), innovation) in self.gates.iter_mut().zip(&self.verdicts).zip(self.estimator.innovations())
-        {
-            if verdict.is_used() {
-                gate.used(innovation);
-            }
+        for (gate, innovation) in self.gates.iter_mut().zip(self.estimator.innovations()) {
+            gate.follow(innovation, &self.design);
         }
         if self.instants < Self::FIRST && self.estimator.has_started() {
             self.instants += 1;

@@ -9,6 +9,7 @@
 //! | `tune` | λ, q and ε from what is known and wanted |
 //! | `efficiency` | the spread of k̂ against the Cramér-Rao bound |
 //! | `exactness` | what rounding to f32 leaves of the errors |
+//! | `faults` | bad input and faults, and what is left of them |
 //! | `soak` | hours of simulated flight beside the f64 twin |
 //!
 //! Results go to stdout, everything else to stderr. With `--json` stdout holds one JSON object and nothing else.
@@ -18,6 +19,7 @@
 
 mod efficiency;
 mod exactness;
+mod faults;
 mod fly;
 mod paper;
 mod replay;
@@ -58,6 +60,8 @@ enum Command {
     Efficiency(efficiency::Args),
     #[command(after_help = EXIT_STATUS)]
     Exactness(exactness::Args),
+    #[command(after_help = EXIT_STATUS)]
+    Faults(faults::Args),
     #[command(after_help = EXIT_STATUS)]
     Soak(soak::Args),
 }
@@ -116,6 +120,7 @@ fn run_command(command: &Command) -> Result<ExitCode, Failure> {
         Command::Tune(args) => tune::run(args),
         Command::Efficiency(args) => efficiency::run(args),
         Command::Exactness(args) => exactness::run(args),
+        Command::Faults(args) => faults::run(args),
         Command::Soak(args) => soak::run(args),
     }
 }

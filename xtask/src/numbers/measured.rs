@@ -13,6 +13,7 @@ pub struct Measured {
     pub paper: Value,
     pub efficiency: Value,
     pub exactness: Value,
+    pub faults: Value,
     /// SVG
     pub figure: String,
 }
@@ -26,7 +27,8 @@ impl Measured {
             .with_context(|| format!("fsb paper made no {}", figure::NAME))?;
         fs::remove_dir_all(&folder).with_context(|| format!("cannot remove {}", folder.display()))?;
         let (efficiency, exactness) = (fsb(&["efficiency", "--json"])?, fsb(&["exactness", "--json"])?);
-        Ok(Self { paper, efficiency, exactness, figure })
+        let faults = fsb(&["faults", "--json"])?;
+        Ok(Self { paper, efficiency, exactness, faults, figure })
     }
 }
 

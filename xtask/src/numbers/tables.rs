@@ -8,7 +8,8 @@ pub fn number(value: &Value) -> Result<f64> {
     value.as_f64().with_context(|| format!("{value} is no number"))
 }
 
-fn rows(value: &Value) -> Result<&[Value]> {
+/// The entries of a list.
+pub fn rows(value: &Value) -> Result<&[Value]> {
     value.as_array().map(Vec::as_slice).with_context(|| format!("{value} is no list"))
 }
 
