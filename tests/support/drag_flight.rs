@@ -1,5 +1,7 @@
 //! Three axes with linear drag and a constant disturbance, flown by a PD-like law: the truth for the regression.
 
+use fsb_core::regression::{DragConfig, DragEstimator, Term};
+use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
 
@@ -135,4 +137,43 @@ impl DragFlight {
         let wanted = 6.0 * (target - axis.position) + 5.0 * (rate - axis.velocity);
         (wanted - axis.acceleration + axis.drag * axis.velocity) / axis.k
     }
+}
+
+/// Lissajous-like motion, drag and trim on every axis, no noise.
+pub const FLIGHT: DragFlight = DragFlight {
+    period: 0.01,
+    k: 1.0 / 1.3,
+    drag: [0.35, 0.5, 0.2],
+    disturbance: [0.3, -0.4, 0.25],
+    amplitude: [0.8, 0.6, 0.5],
+    noise: 0.0,
+    flutter: 0.0,
+};
+
+/// On the default configuration, gravity known.
+pub fn estimator(period: f64) -> DragEstimator<3> {
+    DragEstimator::new(&DragConfig { drift: DRIFT, ..DragConfig::new(period) }).expect("a valid configuration")
+}
+
+/// One instant: measured, then applied.
+pub fn feed(estimator: &mut DragEstimator<3>, instant: &Instant) {
+    estimator.measure(&instant.measured.map(Some)).expect("in step");
+    estimator.apply(&instant.force);
+}
+
+/// A flight from its begin.
+pub fn fly(estimator: &mut DragEstimator<3>, flight: &DragFlight, seconds: f64, seed: u64) {
+    fly_on(estimator, &mut Flyer::new(flight), flight, seconds, &mut Pcg64::seed_from_u64(seed));
+}
+
+/// The same flight going on.
+pub fn fly_on(estimator: &mut DragEstimator<3>, flyer: &mut Flyer, flight: &DragFlight, seconds: f64, rng: &mut Pcg64) {
+    for _ in 0..(seconds / flight.period) as usize {
+        feed(estimator, &flyer.step(flight, rng));
+    }
+}
+
+/// A term that must be known.
+pub fn value(term: Term) -> f64 {
+    f64::from(term.value().expect("known"))
 }

@@ -1,43 +1,12 @@
 //! Hover: what cannot be told is not, and does not spoil what can.
 
-use fsb_core::regression::{DragConfig, DragEstimator, Term};
-use fsb_tests::drag_flight::{DRIFT, DragAxis, DragFlight, Flyer, Instant};
+use fsb_core::regression::{DragEstimator, Term};
+use fsb_tests::drag_flight::{
+    DRIFT, DragAxis, DragFlight, FLIGHT, Flyer, Instant, estimator, feed, fly, fly_on, value,
+};
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
-
-const FLIGHT: DragFlight = DragFlight {
-    period: 0.01,
-    k: 1.0 / 1.3,
-    drag: [0.35, 0.5, 0.2],
-    disturbance: [0.3, -0.4, 0.25],
-    amplitude: [0.8, 0.6, 0.5],
-    noise: 0.0,
-    flutter: 0.0,
-};
-
-fn estimator(period: f64) -> DragEstimator<3> {
-    DragEstimator::new(&DragConfig { drift: DRIFT, ..DragConfig::new(period) }).expect("a valid configuration")
-}
-
-fn feed(estimator: &mut DragEstimator<3>, instant: &Instant) {
-    estimator.measure(&instant.measured.map(Some)).expect("in step");
-    estimator.apply(&instant.force);
-}
-
-fn fly(estimator: &mut DragEstimator<3>, flight: &DragFlight, seconds: f64, seed: u64) {
-    fly_on(estimator, &mut Flyer::new(flight), flight, seconds, &mut Pcg64::seed_from_u64(seed));
-}
-
-fn fly_on(estimator: &mut DragEstimator<3>, flyer: &mut Flyer, flight: &DragFlight, seconds: f64, rng: &mut Pcg64) {
-    for _ in 0..(seconds / flight.period) as usize {
-        feed(estimator, &flyer.step(flight, rng));
-    }
-}
-
-fn value(term: Term) -> f64 {
-    f64::from(term.value().expect("known"))
-}
 
 fn is_unknown(estimator: &DragEstimator<3>) -> bool {
     estimator.terms().iter().all(|t| t.drag == Term::NotObservable && t.disturbance == Term::NotObservable)

@@ -1,20 +1,12 @@
 //! Reported standard deviations of k, D and d against the spread over many flights with white measurement noise.
 
 use fsb_core::regression::{DragConfig, DragEstimator, Term};
-use fsb_tests::drag_flight::{DRIFT, DragFlight};
+use fsb_tests::drag_flight::{DRIFT, DragFlight, FLIGHT as FLIGHT_WITH_DRAG};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-const FLIGHT: DragFlight = DragFlight {
-    period: 0.01,
-    k: 1.0 / 1.3,
-    drag: [0.35, 0.5, 0.2],
-    disturbance: [0.3, -0.4, 0.25],
-    amplitude: [0.8, 0.6, 0.5],
-    noise: 0.002,
-    flutter: 0.0,
-};
+const FLIGHT: DragFlight = DragFlight { noise: 0.002, ..FLIGHT_WITH_DRAG };
 
 /// Error and reported sd of k, then of D and d of each axis.
 fn fly(flight: &DragFlight, seconds: f64, seed: u64) -> Option<Vec<[f64; 2]>> {

@@ -47,27 +47,22 @@ impl Stored for u32 {
     }
 }
 
-impl Stored for u16 {
-    fn pass(&mut self, archive: &mut dyn Archive) {
-        let mut bits = u32::from(*self);
-        archive.word(&mut bits);
-        match Self::try_from(bits) {
-            Ok(value) => *self = value,
-            Err(_) => archive.refuse(),
-        }
-    }
+macro_rules! small {
+    ($($type:ty),+) => {
+        $(impl Stored for $type {
+            fn pass(&mut self, archive: &mut dyn Archive) {
+                let mut bits = u32::from(*self);
+                archive.word(&mut bits);
+                match Self::try_from(bits) {
+                    Ok(value) => *self = value,
+                    Err(_) => archive.refuse(),
+                }
+            }
+        })+
+    };
 }
 
-impl Stored for u8 {
-    fn pass(&mut self, archive: &mut dyn Archive) {
-        let mut bits = u32::from(*self);
-        archive.word(&mut bits);
-        match Self::try_from(bits) {
-            Ok(value) => *self = value,
-            Err(_) => archive.refuse(),
-        }
-    }
-}
+small!(u8, u16);
 
 impl Stored for bool {
     fn pass(&mut self, archive: &mut dyn Archive) {
