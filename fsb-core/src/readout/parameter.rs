@@ -117,6 +117,9 @@ pub(crate) struct ParameterState {
 }
 
 impl ParameterState {
+    /// What rounding leaves of k, however long it is looked at.
+    const ROUNDING: f32 = 1e-7;
+
     /// Nothing known, to be read out of so many axes: no quotient, and a variance above any limit.
     pub const fn start(members: u8, nominal: Option<f32>, rule: CheckedRule) -> Self {
         Self {
@@ -219,8 +222,10 @@ impl ParameterState {
         if let Some(variance) = numerator
             && information > 0.0
         {
-            let pull = 0.5 * self.echo.value() / (self.ratio.quotient() * information);
-            let variance = (variance / information) * (scale2 / information) + pull * pull;
+            let quotient = self.ratio.quotient();
+            let pull = 0.5 * self.echo.value() / (quotient * information);
+            let rounding = Self::ROUNDING * quotient;
+            let variance = (variance / information) * (scale2 / information) + (pull * pull + rounding * rounding);
             // Rounding can take a sum of next to nothing below zero; no quotient yet makes it infinite.
             let variance = if variance >= 0.0 && variance.is_finite() { variance } else { f32::MAX };
             *(if self.is_held() { &mut self.fresh.variance } else { &mut self.variance }) = variance;
