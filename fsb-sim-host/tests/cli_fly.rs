@@ -190,3 +190,41 @@ fn a_diverged_flight_is_told() {
     assert!(json["events"].as_array().unwrap().iter().any(|event| event["what"] == "diverged"), "{json}");
     assert!(root.path().join("out/fly-hover/report.html").is_file());
 }
+
+/// A rate that has no tick every 0.1 s: each entry is from the tick nearest to its time, and none is lost over the flight.
+#[test]
+fn errors_keep_their_pace_at_any_rate() {
+    let root = tempfile::tempdir().unwrap();
+    for (rate, duration) in [("125", 30.0), ("333", 12.0)] {
+        let set = [format!("rate={rate}"), format!("duration={duration}")];
+        let output = fsb(root.path(), &["--scenario", "aggressive", "--json", "--set", &set[0], "--set", &set[1]]);
+        let errors = json(&output)["errors"].as_array().unwrap().clone();
+        assert_eq!(errors.len(), (10.0 * duration) as usize + 1, "{rate} Hz");
+        let half = 0.5 / rate.parse::<f64>().unwrap() + 1e-9;
+        for (i, error) in errors.iter().enumerate() {
+            assert!((error["t"].as_f64().unwrap() - 0.1 * i as f64).abs() <= half, "{rate} Hz: {error}");
+        }
+    }
+}
+
+/// What is judged from 6 s on is null, not zero, in a flight that ends before.
+#[test]
+fn a_short_flight_has_no_tracking() {
+    let root = tempfile::tempdir().unwrap();
+    let json = json(&fsb(root.path(), &["--scenario", "hover", "--set", "duration=5", "--json"]));
+    for part in ["tracking", "state"] {
+        let of = json[part].as_object().unwrap();
+        assert!(of.len() >= 3 && of.values().all(Value::is_null), "{of:?}");
+    }
+}
+
+/// The system's word is said once, and nothing is on stdout.
+#[test]
+fn a_directory_that_cannot_be_made_is_named() {
+    let root = tempfile::tempdir().unwrap();
+    std::fs::write(root.path().join("file"), "").unwrap();
+    let output = fsb(root.path(), &["--scenario", "hover", "--set", "duration=1", "--json", "--out", "file/out"]);
+    let complaint = text(&output.stderr);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0), "{complaint}");
+    assert_eq!((complaint.matches("file/out").count(), complaint.matches("os error").count()), (1, 1), "{complaint}");
+}

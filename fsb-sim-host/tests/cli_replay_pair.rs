@@ -160,6 +160,12 @@ fn a_normalised_thrust_gives_a_hover_thrust() {
     assert_eq!(json.get("mass"), None);
     assert_near(&json["hover_thrust"]["value"], 1.3 * vehicle::GRAVITY, 2e-5 * 1.3 * vehicle::GRAVITY);
     assert_eq!((&json["hover_thrust"]["valid"], &json["hover_thrust"]["px4"]), (&true.into(), &Value::Null));
+    let told = fs::read_to_string(directory.path().join("out/estimates.csv")).unwrap();
+    assert!(told.starts_with("t,x_hat") && told.lines().next().unwrap().ends_with(",hover_thrust_hat,hover_thrust_sd"));
+    let last: f64 = told.lines().last().unwrap().split(',').nth_back(1).unwrap().parse().unwrap();
+    assert!((last / (1.3 * vehicle::GRAVITY) - 1.0).abs() < 2e-5, "{last}");
+    let table = String::from_utf8(replay(&motion, &input, &["--normalised"]).0.stdout).unwrap();
+    assert!(table.contains("hover thrust  x, y, z  12.753") && !table.contains("kg"), "{table}");
     let page = fs::read_to_string(directory.path().join("out/report.html")).unwrap();
     for part in ["Hover thrust", "What is left of the accelerations", "Kalman filter", "Excitation", "Innovations of x"]
     {
@@ -196,7 +202,7 @@ fn bad_input_is_named_and_nothing_is_written() {
         .collect();
     let last = input.lines().count() + 1;
     let turned = motion.replacen("\n", "\n0.0001,0,0,0,2,0,0,0,0,0,0\n", 1);
-    let cases: [(&str, &str, &[&str], &str); 10] = [
+    let cases: [(&str, &str, &[&str], &str); 12] = [
         (&no_quaternion, &input, &[], "motion.csv:1: no column `qw` for qw; found t, x, y, z, q0"),
         (&no_number, &input, &[], "motion.csv:2: column t: found `0.0x"),
         (&motion, &backwards, &[], &format!("input.csv:{last}: column t: found 0.1 s after")),
@@ -207,6 +213,8 @@ fn bad_input_is_named_and_nothing_is_written() {
         (&motion, &input, &["--column", "thrust=F"], "input.csv:1: no column `F` for thrust; found t, thrust_N, other"),
         (&motion, &input, &["--column", "lift=F"], "--column: there is no `lift` to name"),
         (&motion, &input, &["--columns", "none.toml"], "none.toml: no such file"),
+        (&motion, &input, &["--lag", "2"], "motion.csv: with this --lag hardly a position is left"),
+        (&motion, &input, &["--lag", "-9"], "motion.csv: with this --lag hardly a position is left"),
     ];
     for (motion, input, args, expected) in cases {
         let (output, directory) = replay(motion, input, &[args, &["--out", "out"]].concat());

@@ -209,6 +209,16 @@ fn what_never_flies_ends_with_3_and_what_is_no_log_with_2() {
     assert_eq!(missing.status.code(), Some(2));
 }
 
+/// A parameter whose name is longer than its message, after everything else: what comes before is used, and nothing but words is
+/// on stderr.
+#[test]
+fn a_message_shorter_than_its_own_lengths() {
+    let bytes = [&Log::default().bytes()[..], &[3, 0, b'Q', 200, b'x', b'y'], &[3, 0, b'P', 200, b'x', b'y']].concat();
+    let (json, stderr) = json(&bytes, &[]);
+    assert_near(&json["hover_thrust"]["value"], HOVER, 1e-4);
+    assert!(stderr.contains("the file is damaged, what comes before is used") && !stderr.contains("panic"), "{stderr}");
+}
+
 /// Bytes changed here and there end in a result or in a refusal, never in a crash.
 #[test]
 fn damaged_bytes_do_not_crash() {

@@ -78,11 +78,12 @@ fn the_report_is_written_whole() {
 #[test]
 fn bad_input_is_named_and_nothing_is_written() {
     let here = tempfile::tempdir().unwrap();
-    let cases: [(&[&str], &str); 8] = [
+    let cases: [(&[&str], &str); 9] = [
         (&["--velocity-noise", "5"], "--velocity-noise 5: with this sensor"),
         (&["--delay", "0.001"], "--delay 0.001: with this sensor"),
+        (&["--bandwidth", "1e-9"], "--bandwidth 0.000000001: with this sensor"),
         (&["--k-within", "200"], "--k-within 200: must be at most 100 %"),
-        (&["--frequency", "80"], "--frequency 80: must be at most half the rate"),
+        (&["--frequency", "80"], "--frequency 80: must be at most half the rate, 50 Hz"),
         (&["--gravity", "0", "--acceleration", "0"], "--acceleration 0 with --gravity 0"),
         (&["--delay", "0.2", "--bandwidth", "1"], "cannot be used with"),
         (&["--noise-sd", "-1"], "--noise-sd"),
@@ -96,6 +97,12 @@ fn bad_input_is_named_and_nothing_is_written() {
         assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{stderr}");
         assert!(!here.path().join("out").exists());
     }
+    let still: String =
+        (0..400).map(|n| format!("{},1.5,{}\n", 0.01 * f64::from(n), 9.81 + f64::from(n % 7))).collect();
+    std::fs::write(here.path().join("still.csv"), format!("t,z,fz\n{still}")).unwrap();
+    let still = fsb(here.path(), &["--log", "still.csv"]);
+    assert!(String::from_utf8_lossy(&still.stderr).contains("still.csv: its noise cannot be measured"));
+    assert_eq!((still.status.code(), still.stdout.len()), (Some(2), 0));
     let nothing = fsb(here.path(), &[]);
     assert_eq!(nothing.status.code(), Some(2));
     let help = String::from_utf8(fsb(here.path(), &["--help"]).stdout).unwrap();

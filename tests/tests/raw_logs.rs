@@ -54,7 +54,7 @@ fn raw(folder: &Path, lag: Lag) -> Result<Recording, Failed> {
 
 fn resampled(folder: &Path, lag: Lag) -> Result<Recording, Failed> {
     let log = AxisLog::read(&folder.join("flights/crazyflie_brushless_37.0g.csv"))?;
-    Ok(Recording::of_log(log, lag, &ReplayOptions::default(), || {}))
+    Ok(Recording::of_log("resampled", log, lag, &ReplayOptions::default(), || {})?)
 }
 
 fn summary(recording: &Recording, identify: Identify) -> Result<Summary, Failed> {

@@ -141,8 +141,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         eprintln!("fsb: {line}");
     }
     let tell_lag = recording.at_own_stamps || args.identify.is_some() || args.source.asks_for_lag();
-    let summary = Summary::of(&result, &recording, options.gravity, tell_lag);
-    if args.json { print_json(&summary) } else { print_text(&overview::text(&result, &summary)) }
+    let mut summary = Summary::of(&result, &recording, options.gravity, tell_lag);
+    if args.identify.is_some() {
+        summary = summary.as_asked();
+    }
+    if args.json { print_json(&summary) } else { print_text(&overview::text(&result, &summary, options.gravity)) }
 }
 
 /// What a reader should know and the result itself does not say.
@@ -152,7 +155,7 @@ fn told(result: &ReplayResult, recording: &Recording) -> Vec<String> {
     if result.rejected > 0 {
         all.push(format!("{} values beyond 1e6 in magnitude were not used", result.rejected));
     }
-    all.extend(overview::invalid(result));
+    all.extend(overview::invalid(result, recording.unit));
     all
 }
 

@@ -96,6 +96,13 @@ impl Files {
     /// Reads the files.
     pub fn source(&self) -> Result<Source<'_>, Failure> {
         let content = match (&self.log, &self.motion, &self.input) {
+            // Clap's `requires` says nothing where LOG rules --motion out.
+            (Some(log), ..) if self.columns.is_some() || !self.column.is_empty() || self.normalised => {
+                return Err(Failure::Usage(format!(
+                    "--columns, --column and --normalised are for --motion and --input, not for {}",
+                    log.display()
+                )));
+            }
             (Some(log), ..) if is_ulog(log) => {
                 Content::Flight(Box::new(ulog::read(log, self.full_thrust).map_err(refuse)?))
             }
@@ -164,7 +171,7 @@ impl Source<'_> {
         let progress = Progress::new("trial offsets", lag::trials(), lag != Lag::Auto);
         let tried = || progress.step();
         let recording = match self.content {
-            Content::Axis(log) => Recording::of_log(log, lag, options, tried),
+            Content::Axis(log) => Recording::of_log(&self.args.name(), log, lag, options, tried).map_err(refuse)?,
             Content::Flight(flight) => {
                 Recording::of_flight(&self.args.name(), *flight, lag, options, tried).map_err(refuse)?
             }

@@ -123,8 +123,9 @@ pub fn run(args: &Args) -> Result<ExitCode, Failure> {
     if args.acceleration > 0.0 && args.frequency * period > 0.5 {
         let rate = 1.0 / period;
         return Err(Failure::Usage(format!(
-            "--frequency {}: must be at most half the rate, {rate} Hz",
-            args.frequency
+            "--frequency {}: must be at most half the rate, {} Hz",
+            args.frequency,
+            rate / 2.0
         )));
     }
     let proposal = propose(sensor, args.wish(period), excitation, args.k_within / 100.0)
@@ -148,7 +149,7 @@ fn from_log(path: &std::path::Path, args: &Args) -> Result<LogSensor, Failure> {
     let recording = files.source()?.recording(&options)?;
     sensor(&recording, args.gravity).ok_or_else(|| {
         Failure::Usage(format!(
-            "{}: its noise cannot be measured: too few positions in a row, or no k in it",
+            "{}: its noise cannot be measured: too few positions in a row, none in them, or no k in it",
             path.display()
         ))
     })

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::flight::Moment;
 use super::pilot::Belief;
 
-/// Errors of the parameters are kept this often [s].
+/// Errors of the parameters are kept this often [s], each at the tick nearest to that.
 pub const ERRORS_EVERY: f64 = 0.1;
 /// Tracking is judged from this time on [s].
 pub const TRACKING_FROM: f64 = 6.0;

@@ -17,15 +17,25 @@ use crate::statistics::Squares;
 const SAMPLES: u64 = 4000;
 
 /// Tracking sums of one pilot.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Sums {
     position: Squares,
     attitude: Squares,
+    /// Not a number until there is one.
     height_max: f64,
     position_max: f64,
 }
 
 impl Sums {
+    fn new() -> Self {
+        Self {
+            position: Squares::default(),
+            attitude: Squares::default(),
+            height_max: f64::NAN,
+            position_max: f64::NAN,
+        }
+    }
+
     fn add(&mut self, moment: &Moment) {
         if moment.t < TRACKING_FROM - 1e-9 {
             return;
@@ -65,7 +75,7 @@ pub fn record(scenario: &Scenario, seed: u64, keep: Keep) -> Result<Flight, Refu
 }
 
 fn yardstick(scenario: &Scenario, seed: u64, every: u64, flight: &mut Flight) -> Result<(), Refused> {
-    let (mut sums, mut errors) = (Sums::default(), Vec::with_capacity(flight.samples.len()));
+    let (mut sums, mut errors) = (Sums::new(), Vec::with_capacity(flight.samples.len()));
     let diverged = fly(scenario, seed, &mut Yardstick::new(scenario)?, |moment, _| {
         sums.add(moment);
         if moment.tick.is_multiple_of(every) {
@@ -89,7 +99,7 @@ fn yardstick(scenario: &Scenario, seed: u64, every: u64, flight: &mut Flight) ->
 struct Recorder {
     keep: Keep,
     every: u64,
-    errors_every: u64,
+    rate: f64,
     samples: Vec<Sample>,
     errors: Vec<Errors>,
     events: Vec<Event>,
@@ -106,11 +116,11 @@ impl Recorder {
         Ok(Self {
             keep,
             every,
-            errors_every: ((ERRORS_EVERY * scenario.rate).round() as u64).max(1),
+            rate: scenario.rate,
             samples: Vec::new(),
             errors: Vec::new(),
             events: Vec::new(),
-            sums: Sums::default(),
+            sums: Sums::new(),
             state: [Squares::default(); 3],
             small_angle: small_angle.map(|observer| (observer, Vec::new())),
             last: None,
@@ -129,7 +139,7 @@ impl Recorder {
         if self.keep == Keep::All && moment.tick.is_multiple_of(self.every) {
             self.samples.push(Sample { moment: *moment, belief, yardstick: [f64::NAN; 2] });
         }
-        if moment.tick.is_multiple_of(self.errors_every) {
+        if moment.tick == self.next_errors() {
             let estimates = belief.parameters.map(|parameter| parameter.map(|p| f64::from(p.value)));
             self.errors.push(Errors::of(moment.t, percent(moment, estimates)));
             if let Some((observer, errors)) = &mut self.small_angle {
@@ -138,6 +148,11 @@ impl Recorder {
             }
         }
         self.last = Some((*moment, belief));
+    }
+
+    /// The tick nearest to the time of the next errors: at any rate they keep to [`ERRORS_EVERY`].
+    fn next_errors(&self) -> u64 {
+        (self.errors.len() as f64 * ERRORS_EVERY * self.rate).round() as u64
     }
 
     fn add_state(&mut self, moment: &Moment, belief: &Belief) {

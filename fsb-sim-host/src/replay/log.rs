@@ -28,6 +28,7 @@ mod tests;
 
 use std::fs::File;
 use std::io::{self, Read};
+use std::ops::Range;
 use std::path::Path;
 
 use csv::{ByteRecord, ReaderBuilder, Trim};
@@ -73,6 +74,17 @@ impl AxisColumn {
         let (j1, j2) = (moments.j1 / period, moments.j2 / (period * period));
         self.input.push(j1);
         self.ramps.get_or_insert_default().push((6.0 * j2 - 2.0 * j1, 4.0 * j1 - 6.0 * j2));
+    }
+
+    /// These rows of it.
+    pub(super) fn within(&self, rows: Range<usize>) -> Self {
+        Self {
+            axis: self.axis,
+            position: self.position[rows.clone()].to_vec(),
+            input: self.input[rows.clone()].to_vec(),
+            ramps: self.ramps.as_ref().map(|ramps| ramps[rows.clone()].to_vec()),
+            velocity_reference: self.velocity_reference.as_ref().map(|reference| reference[rows].to_vec()),
+        }
     }
 
     /// J1 and J2 of the interval that begins at `sample`.

@@ -1,13 +1,15 @@
 //! What came out, as a table.
 
 use super::feed::ParameterTrace;
+use super::flight::ThrustUnit;
 use super::result::{AxisResult, ReplayResult};
 use super::summary::{Summary, about};
 use crate::report::table::{Cell, Column, Table};
 use fsb_core::readout::ParameterStatus;
 
-/// The parameters and axes of a replay, one a row, for the terminal and for the page.
-pub fn table(result: &ReplayResult) -> Table {
+/// The parameters and axes of a replay, one a row, for the terminal and for the page. `hovering` is the gravity g \[m/s²\] where the
+/// input is a share of the full thrust: then k tells no mass but the hover thrust g/k.
+pub fn table(result: &ReplayResult, hovering: Option<f64>) -> Table {
     let columns = vec![
         Column::left("parameter"),
         Column::left("from"),
@@ -20,13 +22,19 @@ pub fn table(result: &ReplayResult) -> Table {
     let mut table = Table::new("Parameters and axes", columns);
     if let Some(mass) = &result.mass {
         let names: Vec<&str> = result.axes.iter().filter(|a| a.axis.is_translation()).map(|a| a.axis.name()).collect();
-        table.push(row("mass", &names.join(", "), mass, "kg", None));
+        let kind = match hovering {
+            Some(gravity) => Kind { parameter: "hover thrust", unit: "of full thrust", factor: gravity },
+            None => Kind { parameter: "mass", unit: "kg", factor: 1.0 },
+        };
+        table.push(row(kind, &names.join(", "), mass, None));
         for axis in result.axes.iter().filter(|a| a.axis.is_translation()) {
-            table.push(row("mass", &format!("{} alone", axis.axis.name()), &axis.own, "kg", Some(axis)));
+            table.push(row(kind, &format!("{} alone", axis.axis.name()), &axis.own, Some(axis)));
         }
     }
     for axis in result.rotational() {
-        table.push(row(&format!("inertia {}", about(axis)), axis.axis.name(), &axis.own, "kg m²", Some(axis)));
+        let parameter = format!("inertia {}", about(axis));
+        let kind = Kind { parameter: &parameter, unit: "kg m²", factor: 1.0 };
+        table.push(row(kind, axis.axis.name(), &axis.own, Some(axis)));
     }
     let informed = match result.axes.iter().any(|axis| axis.velocity_rms_error_on_the_way.is_some()) {
         true => {
@@ -42,8 +50,8 @@ pub fn table(result: &ReplayResult) -> Table {
 }
 
 /// The tables of a replay for the terminal: parameters and axes, what was identified beside k, and the offset of the input.
-pub fn text(result: &ReplayResult, summary: &Summary) -> String {
-    let mut text = table(result).to_text();
+pub fn text(result: &ReplayResult, summary: &Summary, gravity: f64) -> String {
+    let mut text = table(result, summary.hover_thrust.map(|_| gravity)).to_text();
     if result.identified.is_some() {
         text.push_str(&format!("\n{}", terms(summary).to_text()));
     }
@@ -80,9 +88,11 @@ pub fn terms(summary: &Summary) -> Table {
     table.with_note(&format!("No value: not asked for, or the data do not tell.{left}{lag}"))
 }
 
-/// Why each parameter that is not valid at the end is not, a line each: the pooled mass and the moments of inertia.
-pub fn invalid(result: &ReplayResult) -> Vec<String> {
-    let mass = result.mass.iter().map(|trace| ("mass".to_owned(), trace));
+/// Why each parameter that is not valid at the end is not, a line each: the pooled mass, or hover thrust of a `unit` that
+/// tells no mass, and the moments of inertia.
+pub fn invalid(result: &ReplayResult, unit: ThrustUnit) -> Vec<String> {
+    let name = if unit == ThrustUnit::Normalised { "hover thrust" } else { "mass" };
+    let mass = result.mass.iter().map(|trace| (name.to_owned(), trace));
     let inertia = result.rotational().map(|a| (format!("inertia {}", about(a)), &a.own));
     mass.chain(inertia)
         .filter(|(_, trace)| trace.last().is_none())
@@ -101,18 +111,26 @@ fn reason(status: ParameterStatus) -> &'static str {
     }
 }
 
-fn row(parameter: &str, from: &str, trace: &ParameterTrace, unit: &str, axis: Option<&AxisResult>) -> Vec<Cell> {
+/// What 1/k̂, times a factor, is.
+#[derive(Clone, Copy)]
+struct Kind<'a> {
+    parameter: &'a str,
+    unit: &'a str,
+    factor: f64,
+}
+
+fn row(kind: Kind<'_>, from: &str, trace: &ParameterTrace, axis: Option<&AxisResult>) -> Vec<Cell> {
     let (value, sd) = trace.last().map_or((f64::NAN, f64::NAN), |k| {
         let (value, sd) = k.inverse_with_sd();
-        (f64::from(value), f64::from(sd))
+        (kind.factor * f64::from(value), kind.factor * f64::from(sd))
     });
     let error = axis.and_then(|a| a.velocity_rms_error);
     vec![
-        Cell::text(parameter),
+        Cell::text(kind.parameter),
         Cell::text(from),
         Cell::significant(value, 5),
         Cell::significant(sd, 2),
-        Cell::text(unit),
+        Cell::text(kind.unit),
         error.map_or(Cell::Missing, |e| Cell::significant(e, 3)),
         Cell::text(&trace.status.to_string()),
     ]

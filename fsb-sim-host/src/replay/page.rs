@@ -57,7 +57,8 @@ pub fn files(
     let filtered = rows(log, options.identifier, options.gravity);
     let excitation = k.and_then(|k| left::excitation(&filtered, k, log)).map(|chart| ("excitation", chart));
 
-    let mut first = vec![Block::Table(table(result))];
+    let hovering = (recording.unit == ThrustUnit::Normalised).then_some(options.gravity);
+    let mut first = vec![Block::Table(table(result, hovering))];
     if result.identified.is_some() {
         first.push(Block::Table(terms(&whole)));
     }
@@ -75,7 +76,7 @@ pub fn files(
         ),
         ("Excitation", Vec::new(), excitation.into_iter().collect()),
     ];
-    let mut files = vec![("estimates.csv".to_owned(), to_csv(result, log))];
+    let mut files = vec![("estimates.csv".to_owned(), to_csv(result, log, hovering))];
     let mut parts = Vec::new();
     for (heading, mut blocks, charts) in sections {
         for (name, chart) in charts {

@@ -3,7 +3,7 @@
 use super::fit::{Terms, fit, rows};
 use super::flight::{Flight, FlightError, HoverThrust, ThrustUnit, notice};
 use super::lag::{FoundLag, Lag, find};
-use super::log::AxisLog;
+use super::log::{AxisLog, FEWEST_SAMPLES};
 use super::options::ReplayOptions;
 use crate::replay::flight::KnownMotion;
 
@@ -34,36 +34,39 @@ impl Recording {
         self.hover.iter().rev().find(|hover| hover.valid && hover.t <= end).map(|hover| hover.value)
     }
 
-    /// Of an axis log. `tried` is called after each trial of the search for the lag.
-    #[must_use]
-    pub fn of_log(log: AxisLog, lag: Lag, options: &ReplayOptions, tried: impl Fn()) -> Self {
+    /// Of an axis log, `file` standing for it in messages: the part of it in which the input, with its lag, is known. `tried` is
+    /// called after each trial of the search for the lag.
+    ///
+    /// # Errors
+    /// [`FlightError`]: a lag that leaves too few positions.
+    pub fn of_log(
+        file: &str,
+        log: AxisLog,
+        lag: Lag,
+        options: &ReplayOptions,
+        tried: impl Fn(),
+    ) -> Result<Self, FlightError> {
         let mut notices = notice::noticed(&log);
         let search = match lag {
             Lag::Given(_) => None,
             Lag::Auto => find(|lag| log.delayed(lag), options.gravity, tried),
         };
         let lag = chosen(lag, search.as_ref(), &mut notices);
-        Self {
-            log: log.delayed(lag),
-            lag,
-            search,
-            notices,
-            unit: ThrustUnit::Newton,
-            hover: Vec::new(),
-            at_own_stamps: false,
-        }
+        let log = log.delayed(lag).known(lag).ok_or_else(|| too_late(file))?;
+        Ok(Self { log, lag, search, notices, unit: ThrustUnit::Newton, hover: Vec::new(), at_own_stamps: false })
     }
 
     /// Of a flight at its own time stamps, `file` standing for it in messages.
     ///
     /// The positions are interpolated beside the known input's response, for which a k is needed: first the one that hovers,
-    /// then the one that the whole flight tells.
+    /// then the one that the whole flight tells. Positions before the first input, with its lag, and after the last one are left
+    /// out.
     ///
     /// # Errors
-    /// [`FlightError`]: too few positions.
+    /// [`FlightError`]: too few positions, or a lag that leaves too few.
     pub fn of_flight(
         file: &str,
-        flight: Flight,
+        mut flight: Flight,
         lag: Lag,
         options: &ReplayOptions,
         tried: impl Fn(),
@@ -78,6 +81,14 @@ impl Recording {
             Lag::Auto => find(delayed, gravity, tried),
         };
         let lag = chosen(lag, search.as_ref(), &mut notices);
+        if let (Some(first), Some(last)) = (flight.input.times.first(), flight.input.times.last())
+            && lag != 0.0
+        {
+            flight.keep(first + lag, last + lag);
+        }
+        if flight.times.len() < FEWEST_SAMPLES {
+            return Err(too_late(file));
+        }
         let log = flight.on_grid(file, lag, known)?;
         if let Some(told) = fit(&rows(&log, options.identifier, gravity), Terms { drag: false, disturbance: false }) {
             known.k = told.k;
@@ -85,6 +96,10 @@ impl Recording {
         let log = flight.on_grid(file, lag, known)?;
         Ok(Self { log, lag, search, notices, unit: flight.unit, hover: flight.hover, at_own_stamps: true })
     }
+}
+
+fn too_late(file: &str) -> FlightError {
+    FlightError::NoInput { file: file.to_owned() }
 }
 
 fn chosen(lag: Lag, search: Option<&FoundLag>, notices: &mut Vec<String>) -> f64 {

@@ -200,7 +200,30 @@ impl From<&ReplayResult> for Summary {
     }
 }
 
+impl TermsSummary {
+    /// Neither was identified.
+    const NONE: Self = Self {
+        drag: None,
+        drag_sd: None,
+        drag_observable: false,
+        disturbance: None,
+        disturbance_sd: None,
+        disturbance_observable: false,
+        velocity_rms_error_on_the_way: None,
+    };
+}
+
 impl Summary {
+    /// With the entries of an identification on every axis, rotational ones included, on which there is none but k's.
+    #[must_use]
+    pub fn as_asked(mut self) -> Self {
+        for (_, axis) in &mut self.axes.0 {
+            axis.terms.get_or_insert(TermsSummary::NONE);
+        }
+        self.residual_rms.get_or_insert(None);
+        self
+    }
+
     /// What `recording` gave under the gravity g \[m/s²\], its lag told where `tell_lag`.
     pub fn of(result: &ReplayResult, recording: &Recording, gravity: f64, tell_lag: bool) -> Self {
         let hover = |trace: &ParameterTrace| {

@@ -13,8 +13,7 @@ use tempfile::{Builder, NamedTempFile};
 pub struct WriteError {
     /// The file or directory concerned.
     pub path: PathBuf,
-    /// What the system said.
-    #[source]
+    /// What the system said; part of the message, so not a source as well.
     pub cause: io::Error,
 }
 

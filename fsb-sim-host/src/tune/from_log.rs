@@ -16,7 +16,11 @@ pub struct LogSensor {
     pub axes: Vec<(Axis, f64)>,
 }
 
-/// Measures the noise of a recording; `None` where no axis has enough measurements in a row, or k cannot be told.
+/// Less noise than this \[m\] is none: positions that stand still, or that were computed.
+const NONE: f64 = 1e-12;
+
+/// Measures the noise of a recording; `None` where no axis has enough measurements in a row, none has noise, or k cannot be
+/// told.
 #[must_use]
 pub fn sensor(recording: &Recording, gravity: f64) -> Option<LogSensor> {
     let log = &recording.log;
@@ -32,5 +36,5 @@ pub fn sensor(recording: &Recording, gravity: f64) -> Option<LogSensor> {
         })
         .collect();
     let noise_sd = axes.iter().map(|&(_, sd)| sd).fold(0.0, f64::max);
-    (noise_sd > 0.0).then_some(LogSensor { sensor: Sensor { noise_sd, period: log.period }, axes })
+    (noise_sd > NONE).then_some(LogSensor { sensor: Sensor { noise_sd, period: log.period }, axes })
 }

@@ -65,12 +65,15 @@ pub fn lambda_for_delay(sensor: &Sensor, delay: f64) -> f64 {
     if beyond > 0.0 { (2.0 / beyond).ln_1p() / sensor.period } else { f64::INFINITY }
 }
 
-/// The λ \[1/s\] at which the bandwidth is this \[Hz\], within what the core accepts; beyond it, an end of that.
+/// The λ \[1/s\] at which the bandwidth is this \[Hz\], within what the core accepts; 0 or infinity beyond.
 #[must_use]
 pub fn lambda_for_bandwidth(sensor: &Sensor, wanted: f64) -> f64 {
     let (mut low, mut high) = sensor.lambdas();
     if bandwidth(sensor, high) < wanted {
         return f64::INFINITY;
+    }
+    if bandwidth(sensor, low) > wanted * (1.0 + 1e-9) {
+        return 0.0;
     }
     for _ in 0..200 {
         let middle = (low * high).sqrt();

@@ -46,6 +46,9 @@ pub enum FlightError {
          common: both files must have one clock"
     )]
     NoOverlap { motion_start: f64, motion_end: f64, input_start: f64, input_end: f64 },
+    /// An offset as long as the recording.
+    #[error("{file}: with this --lag hardly a position is left at which the input is known")]
+    NoInput { file: String },
     /// A ULog file that is none, or that is damaged from its beginning.
     #[error("{file}: not a ULog file, or damaged at its beginning: {cause}")]
     Ulog { file: String, cause: String },

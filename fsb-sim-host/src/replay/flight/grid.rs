@@ -202,6 +202,25 @@ impl AxisLog {
         delayed.unpaired.clone_from(&self.unpaired);
         delayed
     }
+
+    /// The rows of a log [`delayed`](Self::delayed) by `lag` \[s\] at which the input is known, not held on from its first row or
+    /// from its last; `None` where these are too few for a log.
+    #[must_use]
+    pub fn known(mut self, lag: f64) -> Option<Self> {
+        let unknown = ((lag.abs() / self.period - 1e-6).ceil().max(0.0) as usize).min(self.len());
+        let left = self.len() - unknown;
+        if left < FEWEST_SAMPLES {
+            return None;
+        }
+        let rows = if lag > 0.0 { unknown..self.len() } else { 0..left };
+        let start = self.time(rows.start);
+        for axis in &mut self.axes {
+            *axis = axis.within(rows.clone());
+        }
+        let mut known = Self::of(start, self.period, self.axes, left);
+        known.unpaired = self.unpaired;
+        Some(known)
+    }
 }
 
 /// The middle value; not a number where there is none.

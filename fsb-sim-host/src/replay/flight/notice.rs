@@ -8,6 +8,8 @@ use crate::replay::log::AxisLog;
 const SATURATED: f64 = 0.05;
 /// Positions missing for so long \[s\] are a gap worth a word.
 const GAP: f64 = 0.1;
+/// Positions that stay the very same for so long \[s\] are worth a word: a sensor of a vehicle in the air has some noise.
+const FROZEN: f64 = 1.0;
 /// A step of the position is a jump from this on \[m\] …
 const JUMP: f64 = 0.1;
 /// … where it is so many times what is usual.
@@ -24,8 +26,10 @@ impl Flight {
         words.extend(gaps("input", &self.input.times, 5.0 * step, "the last input is taken as held"));
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
             let track: Vec<(f64, f64)> = self.times.iter().zip(&self.position).map(|(&t, p)| (t, p[axis])).collect();
-            words.extend(jumps(name, &track));
+            words.extend(jumps(name, &track, GAP.max(LARGEST_BRACKET * step)));
         }
+        let places: Vec<(f64, [f64; 3])> = self.times.iter().copied().zip(self.position.iter().copied()).collect();
+        words.extend(frozen(&places));
         let size = |f: &[f64; 3]| f.iter().map(|x| x * x).sum::<f64>().sqrt();
         let thrust: Vec<(f64, f64)> =
             self.input.times.iter().zip(&self.input.force).map(|(&t, f)| (t, size(f))).collect();
@@ -45,11 +49,20 @@ pub fn noticed(log: &AxisLog) -> Vec<String> {
         let times: Vec<f64> = measured.iter().map(|&(t, _)| t).collect();
         words.extend(gaps(name, &times, 1.5 * log.period, "taken as missed measurements"));
         if axis.axis.is_translation() {
-            words.extend(jumps(name, &measured));
+            words.extend(jumps(name, &measured, GAP.max(1.5 * log.period)));
         }
     }
     let translational: Vec<&[f64]> =
         log.axes.iter().filter(|a| a.axis.is_translation()).map(|a| a.input.as_slice()).collect();
+    let positions: Vec<&[Option<f64>]> =
+        log.axes.iter().filter(|a| a.axis.is_translation()).map(|a| a.position.as_slice()).collect();
+    if !positions.is_empty() {
+        let places: Vec<(f64, Vec<Option<f64>>)> = (0..log.len())
+            .map(|n| (log.time(n), positions.iter().map(|column| column[n]).collect()))
+            .filter(|(_, place): &(f64, Vec<Option<f64>>)| place.iter().all(Option::is_some))
+            .collect();
+        words.extend(frozen(&places));
+    }
     if translational.len() == 3 {
         let size = |n: usize| translational.iter().map(|f| f[n] * f[n]).sum::<f64>().sqrt();
         words.extend(saturation(&(0..log.len()).map(|n| (log.time(n), size(n))).collect::<Vec<_>>()));
@@ -68,8 +81,27 @@ fn gaps(what: &str, times: &[f64], usual: f64, consequence: &str) -> Option<Stri
     Some(format!("{what}: {gaps} of {length:.2} s at t = {t:.2} s; {consequence}"))
 }
 
-/// One line for all jumps of a position: a step that is far from what the velocities around it explain.
-fn jumps(name: &str, track: &[(f64, f64)]) -> Option<String> {
+/// The longest time in which no coordinate changes by a single bit.
+fn frozen<P: PartialEq>(places: &[(f64, P)]) -> Option<String> {
+    let (mut longest, mut at, mut since) = (0.0, 0.0, 0);
+    for (n, (t, place)) in places.iter().enumerate() {
+        if *place != places[since].1 {
+            since = n;
+        } else if t - places[since].0 > longest {
+            (longest, at) = (t - places[since].0, places[since].0);
+        }
+    }
+    (longest >= FROZEN).then(|| {
+        format!(
+            "the position does not change at all for {longest:.2} s from t = {at:.2} s on: where the vehicle did not stand still, its \
+             sensor did, and what is identified is not to be trusted"
+        )
+    })
+}
+
+/// One line for all jumps of a position: a step that is far from what the velocities around it explain. Over a gap longer than
+/// `gap` \[s\] there is nothing to compare with.
+fn jumps(name: &str, track: &[(f64, f64)], gap: f64) -> Option<String> {
     let velocity: Vec<f64> = track.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0)).collect();
     // The middle one of five does not see a single step.
     let around = |i: usize| median(velocity[i.saturating_sub(2)..(i + 3).min(velocity.len())].iter().copied());
@@ -77,7 +109,12 @@ fn jumps(name: &str, track: &[(f64, f64)]) -> Option<String> {
         .map(|i| (track[i + 1].0, (velocity[i] - around(i)) * (track[i + 1].0 - track[i].0)))
         .collect();
     let limit = (UNUSUAL * median(excess.iter().map(|(_, e)| e.abs()))).max(JUMP);
-    let found: Vec<(f64, f64)> = excess.into_iter().filter(|(_, excess)| excess.abs() > limit).collect();
+    let found: Vec<(f64, f64)> = excess
+        .into_iter()
+        .zip(track)
+        .filter(|((t, excess), (before, _))| excess.abs() > limit && t - before <= gap)
+        .map(|(found, _)| found)
+        .collect();
     let (t, size) = found.first()?;
     let count = if found.len() == 1 { String::new() } else { format!(", the first of {} such jumps", found.len()) };
     Some(format!(
@@ -122,13 +159,23 @@ mod tests {
         let smooth = |t: f64| (1.3 * t).sin();
         let times: Vec<f64> = (0..500).map(|i| 0.01 * f64::from(i)).collect();
         let track: Vec<(f64, f64)> = times.iter().map(|&t| (t, smooth(t))).collect();
-        assert_eq!((gaps("x", &times, 0.025, ""), jumps("x", &track), saturation(&track)), (None, None, None));
+        assert_eq!((gaps("x", &times, 0.025, ""), jumps("x", &track, GAP), saturation(&track)), (None, None, None));
+        assert_eq!(frozen(&track), None);
 
         let mut holed = times.clone();
         holed.drain(200..250);
         assert!(gaps("x", &holed, 0.025, "").is_some_and(|word| word.contains("0.51 s at t = 1.99 s")));
         let reset: Vec<(f64, f64)> = times.iter().map(|&t| (t, smooth(t) + if t > 3.0 { 0.5 } else { 0.0 })).collect();
-        assert!(jumps("x", &reset).is_some_and(|word| word.contains("0.50 m at t = 3.01 s:")));
+        assert!(jumps("x", &reset, GAP).is_some_and(|word| word.contains("0.50 m at t = 3.01 s:")));
+        // Over a gap the way flown meanwhile is no jump.
+        let over: Vec<(f64, f64)> = holed.iter().map(|&t| (t, smooth(t))).collect();
+        assert_eq!(jumps("x", &over, GAP), None);
+        let stopped: Vec<(f64, f64)> = times.iter().map(|&t| (t, smooth(t.clamp(1.0, 2.5)))).collect();
+        assert!(
+            frozen(&stopped).is_some_and(|word| word.contains("for 2.49 s from t = 2.50 s on")),
+            "{:?}",
+            frozen(&stopped)
+        );
         let clipped: Vec<(f64, f64)> = times.iter().map(|&t| (t, (10.0 + 4.0 * smooth(t)).min(12.0))).collect();
         assert!(saturation(&clipped).is_some_and(|word| word.contains("12.0000")));
     }

@@ -38,8 +38,11 @@ pub fn read(path: &Path, full_thrust: Option<f64>) -> Result<Flight, FlightError
     let landed = clock.flags(&store, LAND, "landed");
     let armed = clock.flags(&store, ARMED, "armed");
     let signs = Signs { height: &heights, thrust: &sizes, landed: landed.as_ref(), armed: armed.as_ref() };
-    let Airborne { from, to, others } =
-        flight(&signs).map_err(|why| FlightError::NoFlight { file: file.clone(), why })?;
+    let damaged = store.incomplete.as_ref().map(|why| format!("the file is damaged, what comes before is used: {why}"));
+    let Airborne { from, to, others } = flight(&signs).map_err(|why| {
+        let why = damaged.iter().fold(why, |why, damaged| format!("{why}; {damaged}"));
+        FlightError::NoFlight { file: file.clone(), why }
+    })?;
 
     let scale = full_thrust.unwrap_or(1.0);
     found.unit = if full_thrust.is_some() { ThrustUnit::Newton } else { ThrustUnit::Normalised };
@@ -65,7 +68,7 @@ pub fn read(path: &Path, full_thrust: Option<f64>) -> Result<Flight, FlightError
         let total: f64 = store.dropouts.iter().sum();
         found.notices.push(format!("the logger lost messages {} times, {total:.2} s in all", store.dropouts.len()));
     }
-    found.notices.extend(store.incomplete.map(|why| format!("the file is damaged, what comes before is used: {why}")));
+    found.notices.extend(damaged);
     Ok(found)
 }
 

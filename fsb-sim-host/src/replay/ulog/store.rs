@@ -9,6 +9,7 @@ use px4_ulog::stream_parser::{
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{ErrorKind, Read};
+use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 
 /// The first bytes of every ULog file.
@@ -61,22 +62,34 @@ impl Store {
         let progress = Progress::new("bytes of the log", size, size < 20_000_000);
         let mut store = Self { start: f64::INFINITY, ..Self::default() };
         let mut refused = None;
-        let ended = read_file_with_simple_callback(name, &mut |message| {
-            match message {
-                Message::Data(data) => {
-                    progress.advance(data.data.len() as u64 + 3);
-                    refused = store.take(data, wanted);
+        let ended = guarded(|| {
+            read_file_with_simple_callback(name, &mut |message| {
+                match message {
+                    Message::Data(data) => {
+                        progress.advance(data.data.len() as u64 + 3);
+                        refused = store.take(data, wanted);
+                    }
+                    Message::DropoutMessage(lost) => store.dropouts.push(f64::from(lost.duration_ms) / 1000.0),
+                    _ => {}
                 }
-                Message::DropoutMessage(lost) => store.dropouts.push(f64::from(lost.duration_ms) / 1000.0),
-                _ => {}
-            }
-            if refused.is_some() { SimpleCallbackResult::Stop } else { SimpleCallbackResult::KeepReading }
+                if refused.is_some() { SimpleCallbackResult::Stop } else { SimpleCallbackResult::KeepReading }
+            })
         });
-        let ended = ended.map_err(|error| FlightError::Ulog { file: file.clone(), cause: error.to_string() })?;
-        store.incomplete =
-            refused.or_else(|| ended.is_incomplete().then(|| "it ends in the middle of a message".to_owned()));
         progress.finish();
-        Ok(store)
+        let to_the_end = matches!(ended, Some(Ok(_)));
+        store.incomplete = match ended {
+            Some(Ok(ended)) => {
+                refused.or_else(|| ended.is_incomplete().then(|| "it ends in the middle of a message".to_owned()))
+            }
+            Some(Err(error)) => Some(error.to_string()),
+            None => Some("a message is shorter than its own lengths say".to_owned()),
+        };
+        match &store.incomplete {
+            Some(cause) if store.counts.is_empty() && !to_the_end => {
+                Err(FlightError::Ulog { file, cause: cause.clone() })
+            }
+            _ => Ok(store),
+        }
     }
 
     /// Takes a message in; says why the rest cannot be read if it is too short for its own format.
@@ -153,4 +166,14 @@ fn number(field: &FlattenedField, data: &[u8]) -> Option<f64> {
         FlattenedFieldType::UInt64 => u64::parse(long(8)?) as f64,
         FlattenedFieldType::Double => f64::parse(long(8)?),
     })
+}
+
+/// What `read` gives; `None` where it panics, as the parser does on a message that is shorter than the lengths in it. Nothing of
+/// that is printed.
+fn guarded<T>(read: impl FnOnce() -> T) -> Option<T> {
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let done = panic::catch_unwind(AssertUnwindSafe(read)).ok();
+    panic::set_hook(hook);
+    done
 }
