@@ -6,3 +6,4 @@ pub mod flight;
 pub mod fly;
 pub mod rigid_body;
 pub mod six_axes;
+pub mod words;

@@ -216,7 +216,7 @@ fn after_a_gap_measurements_are_believed() {
     }
 }
 
-/// The same bits for longer than configured: no measurement.
+/// The same bits for longer than configured: no measurement, nor is the first one that differs again.
 #[test]
 fn a_frozen_sensor_is_noticed() {
     let mut flight = Flight::new(13, 1e-3);
@@ -230,7 +230,7 @@ fn a_frozen_sensor_is_noticed() {
             stuck = y;
         }
         let verdict = guarded.measure(&[Some(if frozen { stuck } else { y })]).unwrap()[0];
-        assert_eq!(verdict == Verdict::Frozen, (1003..1050).contains(&n), "{n}: {verdict}");
+        assert_eq!(verdict == Verdict::Frozen, (1003..=1050).contains(&n), "{n}: {verdict}");
         guarded.apply(&[force]);
     }
 }

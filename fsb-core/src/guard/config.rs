@@ -20,8 +20,8 @@ pub struct GuardConfig {
     /// handed out. Where all axes are, the windows start anew with the next measurement; where one was, the identification.
     /// Parameters are held. Positive, at most 65535 measurement periods.
     pub bridge: f64,
-    /// A measurement whose bits have been the same for more than so many samples is one of a frozen sensor; 0: never.
-    /// Up to 65535.
+    /// A measurement whose bits have been the same for more than so many samples is one of a frozen sensor; 0: never. It takes
+    /// two that differ to end that, as a bit of a frozen value may flip. Up to 65535.
     pub frozen_after: u32,
 }
 

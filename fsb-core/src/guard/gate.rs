@@ -20,8 +20,8 @@ pub(super) struct Gate {
     innovation: f32,
     /// That of the last improbable one.
     candidate: f32,
-    /// The last measurement, used or not.
-    last: f32,
+    /// The bits of the last measurement, used or not; they may be those of a subnormal number.
+    last: u32,
 }
 
 impl Gate {
@@ -72,6 +72,8 @@ impl Gate {
             return Verdict::BeyondLimit;
         }
         if self.is_frozen(y, design) {
+            // A frozen sensor agrees with itself, which is no jump.
+            self.run = 0;
             return Verdict::Frozen;
         }
         let Some(expected) = expected else {
@@ -88,7 +90,9 @@ impl Gate {
         // A large innovation is on its way back to zero.
         let known = design.step + design.fall * gap * gap + design.decay * self.innovation.abs();
         let trusted = self.values >= Self::ENOUGH;
-        if !trusted || step * step <= noise * stretch * stretch + known * known {
+        // What was expected is no outlier: it may be the last one that was, and passed.
+        let off = if innovation.abs() < step.abs() { innovation } else { step };
+        if !trusted || off * off <= noise * stretch * stretch + known * known {
             if self.gap == 0 {
                 self.learn(step * step);
             }
@@ -130,9 +134,18 @@ impl Gate {
     }
 
     fn is_frozen(&mut self, y: f32, design: &GuardDesign) -> bool {
-        self.repeated = if y.to_bits() == self.last.to_bits() { self.repeated.saturating_add(1) } else { 0 };
-        self.last = y;
-        design.frozen_after > 0 && self.repeated > design.frozen_after
+        let looked_for = design.frozen_after > 0;
+        if y.to_bits() == self.last {
+            self.repeated = self.repeated.saturating_add(1);
+        } else if looked_for && self.repeated > design.frozen_after {
+            // One that differs may be the frozen one with a fault of its own: it takes two to be alive.
+            self.repeated = design.frozen_after;
+            return true;
+        } else {
+            self.repeated = 0;
+            self.last = y.to_bits();
+        }
+        looked_for && self.repeated > design.frozen_after
     }
 
     fn learn(&mut self, square: f32) {

@@ -2,6 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `faulty` | the same with faults in every signal, through the gate |
 //! | `plan` | what is flown: sines, hover, and minutes on the ground with a silent sensor |
 //! | `twin_pair` | the twin's identifier and observer of both axes |
 //! | `words` | every number the estimator holds, read from its `Debug` form |
@@ -13,6 +14,7 @@
 // Units stand in brackets; they are no links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+pub mod faulty;
 mod plan;
 mod twin_pair;
 mod words;
