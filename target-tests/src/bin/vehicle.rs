@@ -1,0 +1,100 @@
+//! The vehicle's estimator and the regression with drag, counted or measured; the argument says which. A program of its own, so
+//! that neither changes what the compiler makes of `tick`.
+//!
+//! | argument | prints |
+//! |---|---|
+//! | `count` | instructions of every kind of call, mean and worst |
+//! | `size` | bytes of what is kept |
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use fsb_core::vehicle::{VehicleEstimator, Wrench};
+use semihosting::{println, process};
+use target_tests::board::{instructions, overhead};
+use target_tests::cost::Cost;
+use target_tests::drag::DragFlight;
+use target_tests::rigid_body::{Conditions, RigidBody};
+use target_tests::vehicle::{
+    Drag, FULL, PLAIN, drag_apply, drag_config, drag_measure, drag_states, vehicle, vehicle_state, vehicle_update,
+};
+
+/// Half a minute at 1 kHz, from the start.
+const TICKS: u32 = 30_000;
+
+#[entry]
+fn main() -> ! {
+    let arguments = semihosting::experimental::env::args::<128>().expect("arguments");
+    let mut arguments = (&arguments).into_iter();
+    let _ = arguments.next();
+    match arguments.next() {
+        Some(Ok("count")) => count(),
+        Some(Ok("size")) => {
+            println!("vehicle {}", size_of::<VehicleEstimator<1>>());
+            println!("drag_estimator {}", size_of::<Drag>());
+        }
+        _ => {
+            println!("which?");
+            process::exit(2)
+        }
+    }
+    println!("end");
+    process::exit(0)
+}
+
+fn count() {
+    fly(&PLAIN, "vehicle_update", "vehicle_state");
+    fly(&FULL, "vehicle_update_with_everything", "vehicle_state_with_everything");
+    regress(1e-3, TICKS, "drag_tick_1000_hz");
+    regress(1e-2, TICKS / 10, "drag_tick_100_hz");
+}
+
+fn fly(conditions: &Conditions, update_name: &'static str, state_name: &'static str) {
+    let (mut update, mut state) = (Cost::new(update_name), Cost::new(state_name));
+    let mut vehicle = vehicle(conditions);
+    let mut body = RigidBody::new(*conditions);
+    let mut applied = Wrench::default();
+    let nothing = overhead();
+    for tick in 0..TICKS {
+        let (measured, told) = body.step();
+        let start = instructions();
+        let _ = black_box(vehicle_update(&mut vehicle, &measured, &applied));
+        let middle = instructions();
+        let _ = black_box(vehicle_state(&vehicle));
+        let end = instructions();
+        update.add(tick, middle.wrapping_sub(start).saturating_sub(nothing));
+        state.add(tick, end.wrapping_sub(middle).saturating_sub(nothing));
+        applied = told;
+    }
+    update.print();
+    state.print();
+    let valid = vehicle.mass().is_some() && vehicle.inertia().iter().all(Option::is_some);
+    assert!(valid, "a parameter did not become valid: these are not the updates they are meant to be");
+    let noticed = vehicle.counters().mass_changes > 0;
+    assert!(noticed == conditions.loaded_at.is_some(), "the load should have been noticed, and nothing else");
+}
+
+/// A tick: measured, states read, forces applied.
+fn regress(period: f64, ticks: u32, name: &'static str) {
+    let mut cost = Cost::new(name);
+    let mut drag = Drag::new(&drag_config(period)).expect("a good configuration");
+    let mut flight = DragFlight::new(period, false);
+    let nothing = overhead();
+    for tick in 0..ticks {
+        let (positions, forces) = flight.step();
+        let start = instructions();
+        let _ = black_box(drag_measure(&mut drag, &positions));
+        let _ = black_box(drag_states(&drag));
+        drag_apply(&mut drag, &forces);
+        let end = instructions();
+        cost.add(tick, end.wrapping_sub(start).saturating_sub(nothing));
+    }
+    cost.print();
+    let told = drag.terms().iter().all(|of| of.drag.value().is_some() && of.disturbance.value().is_some());
+    assert!(
+        drag.parameter().is_some() && told,
+        "something was not identified: these are not the ticks they are meant to be"
+    );
+}
