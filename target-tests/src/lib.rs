@@ -3,7 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `six` | the six-axis estimator, and its calls as functions of their own |
-//! | `vehicle` | the vehicle's estimator and the regression with drag, likewise |
+//! | `vehicle` | the vehicle's estimator and the regression with drag, configured |
 //! | `scenario`, `rigid_body`, `drag` | inputs for them, the same bits on every machine |
 //! | `random` | their noise |
 //! | `parity` | a flight over all of them, told as hashes of every output bit |

@@ -1,6 +1,5 @@
-//! The vehicle's estimator and the regression with drag, and their calls as functions of their own.
+//! The vehicle's estimator and the regression with drag, and how they are configured for the flights.
 
-use fsb_core::estimator::{AxisState, OutOfStep};
 use fsb_core::regression::{DragConfig, DragEstimator};
 use fsb_core::vehicle::{
     ChangeRule, Events, Expected, Measured, VehicleConfig, VehicleEstimator, VehicleState, Wrench,
@@ -53,39 +52,4 @@ pub fn drag_config(period: f64) -> DragConfig<3> {
     config.drift = DRIFT;
     config.nominal = Some(0.5);
     config
-}
-
-/// The update, by itself so that it can be counted and disassembled.
-#[inline(never)]
-#[unsafe(no_mangle)]
-pub fn vehicle_update(vehicle: &mut Vehicle, measured: &Measured, applied: &Wrench) -> Events {
-    vehicle.update(measured, applied)
-}
-
-/// What the controller reads.
-#[inline(never)]
-#[unsafe(no_mangle)]
-pub fn vehicle_state(vehicle: &Vehicle) -> VehicleState {
-    vehicle.state()
-}
-
-/// The regression: a tick's first half.
-#[inline(never)]
-#[unsafe(no_mangle)]
-pub fn drag_measure(drag: &mut Drag, positions: &[Option<f32>; 3]) -> Result<(), OutOfStep> {
-    drag.measure(positions)
-}
-
-/// The regression: a tick's second half.
-#[inline(never)]
-#[unsafe(no_mangle)]
-pub fn drag_apply(drag: &mut Drag, inputs: &[f32; 3]) {
-    drag.apply(inputs);
-}
-
-/// What the controller reads.
-#[inline(never)]
-#[unsafe(no_mangle)]
-pub fn drag_states(drag: &Drag) -> [Option<AxisState>; 3] {
-    drag.states()
 }

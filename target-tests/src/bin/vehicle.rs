@@ -1,5 +1,6 @@
 //! The vehicle's estimator and the regression with drag, counted or measured; the argument says which. A program of its own, so
-//! that neither changes what the compiler makes of `tick`.
+//! that neither changes what the compiler makes of `tick`; for the same reason the functions that are counted are here, as one that is
+//! exported from the library would be in every program.
 //!
 //! | argument | prints |
 //! |---|---|
@@ -11,15 +12,14 @@
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use fsb_core::vehicle::{VehicleEstimator, Wrench};
+use fsb_core::estimator::{AxisState, OutOfStep};
+use fsb_core::vehicle::{Events, Measured, VehicleEstimator, VehicleState, Wrench};
 use semihosting::{println, process};
 use target_tests::board::{instructions, overhead};
 use target_tests::cost::Cost;
 use target_tests::drag::DragFlight;
 use target_tests::rigid_body::{Conditions, RigidBody};
-use target_tests::vehicle::{
-    Drag, FULL, PLAIN, drag_apply, drag_config, drag_measure, drag_states, vehicle, vehicle_state, vehicle_update,
-};
+use target_tests::vehicle::{Drag, FULL, PLAIN, Vehicle, drag_config, vehicle};
 
 /// Half a minute at 1 kHz, from the start.
 const TICKS: u32 = 30_000;
@@ -97,4 +97,39 @@ fn regress(period: f64, ticks: u32, name: &'static str) {
         drag.parameter().is_some() && told,
         "something was not identified: these are not the ticks they are meant to be"
     );
+}
+
+/// The update, by itself so that it can be counted and disassembled.
+#[inline(never)]
+#[unsafe(no_mangle)]
+fn vehicle_update(vehicle: &mut Vehicle, measured: &Measured, applied: &Wrench) -> Events {
+    vehicle.update(measured, applied)
+}
+
+/// What the controller reads.
+#[inline(never)]
+#[unsafe(no_mangle)]
+fn vehicle_state(vehicle: &Vehicle) -> VehicleState {
+    vehicle.state()
+}
+
+/// The regression: a tick's first half.
+#[inline(never)]
+#[unsafe(no_mangle)]
+fn drag_measure(drag: &mut Drag, positions: &[Option<f32>; 3]) -> Result<(), OutOfStep> {
+    drag.measure(positions)
+}
+
+/// The regression: a tick's second half.
+#[inline(never)]
+#[unsafe(no_mangle)]
+fn drag_apply(drag: &mut Drag, inputs: &[f32; 3]) {
+    drag.apply(inputs);
+}
+
+/// What the controller reads.
+#[inline(never)]
+#[unsafe(no_mangle)]
+fn drag_states(drag: &Drag) -> [Option<AxisState>; 3] {
+    drag.states()
 }

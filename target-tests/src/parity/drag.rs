@@ -5,7 +5,7 @@ use core::fmt;
 use super::hash::Hash;
 use super::{SECONDS, changed};
 use crate::drag::DragFlight;
-use crate::vehicle::{Drag, drag_apply, drag_config, drag_measure, drag_states};
+use crate::vehicle::{Drag, drag_config};
 use fsb_core::readout::Memory;
 use fsb_core::regression::{DragDiagnostics, Term};
 
@@ -32,9 +32,9 @@ fn fly(name: &str, rate: u32, memory: Memory, change: u32, line: &mut dyn FnMut(
             inputs.floats(position.as_ref().map(core::slice::from_ref));
         }
         inputs.floats(Some(&forces));
-        outputs.word(u32::from(drag_measure(&mut drag, &positions).is_ok()));
+        outputs.word(u32::from(drag.measure(&positions).is_ok()));
         hash_outputs(&drag, &mut outputs);
-        drag_apply(&mut drag, &forces);
+        drag.apply(&forces);
         if (tick + 1) % rate == 0 {
             let second = (tick + 1) / rate;
             line(format_args!("{name} {second} inputs {:016x} outputs {:016x}", inputs.0, outputs.0));
@@ -44,7 +44,7 @@ fn fly(name: &str, rate: u32, memory: Memory, change: u32, line: &mut dyn FnMut(
 }
 
 fn hash_outputs(drag: &Drag, hash: &mut Hash) {
-    drag_states(drag).iter().for_each(|state| hash.state(state.as_ref()));
+    drag.states().iter().for_each(|state| hash.state(state.as_ref()));
     drag.state_status().into_iter().for_each(|status| hash.state_status(status));
     hash.parameter(drag.parameter().as_ref());
     hash.parameter_status(drag.parameter_status());

@@ -5,7 +5,7 @@ use core::fmt;
 use super::hash::Hash;
 use super::{RATE, SECONDS, changed};
 use crate::rigid_body::{Conditions, RigidBody};
-use crate::vehicle::{FULL, PLAIN, Vehicle, config, vehicle_state, vehicle_update};
+use crate::vehicle::{FULL, PLAIN, Vehicle, config};
 use fsb_core::readout::Memory;
 use fsb_core::vehicle::{Attitude, Events, Group, Identified, Measured, VehicleState, Wrench};
 
@@ -42,7 +42,7 @@ fn fly(name: &str, conditions: &Conditions, memory: Memory, change: u32, line: &
             vehicle.reset();
         }
         hash_inputs(&measured, &applied, &mut inputs);
-        hash_events(&vehicle_update(&mut vehicle, &measured, &applied), &mut outputs);
+        hash_events(&vehicle.update(&measured, &applied), &mut outputs);
         hash_outputs(&vehicle, &mut outputs);
         applied = told;
         if (tick + 1) % RATE == 0 {
@@ -78,7 +78,7 @@ fn hash_events(events: &Events, hash: &mut Hash) {
 }
 
 fn hash_outputs(vehicle: &Vehicle, hash: &mut Hash) {
-    let VehicleState { position, velocity, attitude, rates } = vehicle_state(vehicle);
+    let VehicleState { position, velocity, attitude, rates } = vehicle.state();
     for vector in [position, velocity, rates] {
         hash.floats(vector.as_ref().map(<[f32; 3]>::as_slice));
     }
@@ -117,7 +117,7 @@ fn counted(vehicle: &Vehicle) -> [u32; 8] {
 
 /// The last outputs, bit by bit.
 fn last(name: &str, vehicle: &Vehicle, line: &mut dyn FnMut(fmt::Arguments)) {
-    let VehicleState { position, velocity, rates, .. } = vehicle_state(vehicle);
+    let VehicleState { position, velocity, rates, .. } = vehicle.state();
     for (what, vector) in [("position", position), ("velocity", velocity), ("rates", rates)] {
         match vector {
             Some([x, y, z]) => {
