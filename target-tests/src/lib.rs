@@ -7,7 +7,7 @@
 //! | `scenario`, `rigid_body`, `drag` | inputs for them, the same bits on every machine |
 //! | `random` | their noise |
 //! | `parity` | a flight over all of them, told as hashes of every output bit |
-//! | `cost` | mean and worst of a count |
+//! | `cost`, `stack` | mean and worst of a count; the stack that a call uses |
 //! | `whole_loop`, `peripherals` | the control loop of `fsb-firmware`, with motors that do nothing |
 //! | `board` | the emulated machine: instruction counter, fault handler |
 #![no_std]
@@ -23,5 +23,7 @@ pub mod random;
 pub mod rigid_body;
 pub mod scenario;
 pub mod six;
+#[cfg(all(target_os = "none", feature = "emulator"))]
+pub mod stack;
 pub mod vehicle;
 pub mod whole_loop;

@@ -164,8 +164,7 @@ impl RigidBody {
         }
         let r = matrix(turned(self.attitude, turn.map(|x| 0.5 * x)));
         self.attitude = turned(self.attitude, turn);
-        for axis in 0..3 {
-            let [x, y, z] = r[axis];
+        for (axis, [x, y, z]) in r.into_iter().enumerate() {
             let gravity = if axis == 2 { GRAVITY } else { 0.0 };
             let step = PERIOD * ((x * force[0] + y * force[1] + z * force[2]) / (load * MASS) - gravity);
             self.position[axis] += PERIOD * (self.velocity[axis] + 0.5 * step);

@@ -1,9 +1,7 @@
 //! The vehicle's estimator and the regression with drag, and how they are configured for the flights.
 
 use fsb_core::regression::{DragConfig, DragEstimator};
-use fsb_core::vehicle::{
-    ChangeRule, Events, Expected, Measured, VehicleConfig, VehicleEstimator, VehicleState, Wrench,
-};
+use fsb_core::vehicle::{ChangeRule, Expected, VehicleConfig, VehicleEstimator};
 
 use crate::drag::DRIFT;
 use crate::rigid_body::{Conditions, INERTIA, LAG, MASS};

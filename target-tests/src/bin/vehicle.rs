@@ -6,6 +6,7 @@
 //! |---|---|
 //! | `count` | instructions of every kind of call, mean and worst |
 //! | `size` | bytes of what is kept |
+//! | `stack` | the stack that a call has used at most |
 #![no_std]
 #![no_main]
 
@@ -19,6 +20,7 @@ use target_tests::board::{instructions, overhead};
 use target_tests::cost::Cost;
 use target_tests::drag::DragFlight;
 use target_tests::rigid_body::{Conditions, RigidBody};
+use target_tests::stack::stack_of;
 use target_tests::vehicle::{Drag, FULL, PLAIN, Vehicle, drag_config, vehicle};
 
 /// Half a minute at 1 kHz, from the start.
@@ -31,6 +33,7 @@ fn main() -> ! {
     let _ = arguments.next();
     match arguments.next() {
         Some(Ok("count")) => count(),
+        Some(Ok("stack")) => stack(),
         Some(Ok("size")) => {
             println!("vehicle {}", size_of::<VehicleEstimator<1>>());
             println!("drag_estimator {}", size_of::<Drag>());
@@ -74,6 +77,30 @@ fn fly(conditions: &Conditions, update_name: &'static str, state_name: &'static 
     assert!(valid, "a parameter did not become valid: these are not the updates they are meant to be");
     let noticed = vehicle.counters().mass_changes > 0;
     assert!(noticed == conditions.loaded_at.is_some(), "the load should have been noticed, and nothing else");
+}
+
+fn stack() {
+    let mut used = [0; 2];
+    for conditions in [PLAIN, FULL] {
+        let conditions = Conditions { faults: true, ..conditions };
+        let mut vehicle = vehicle(&conditions);
+        let mut body = RigidBody::new(conditions);
+        let mut applied = Wrench::default();
+        for _ in 0..7_000 {
+            let (measured, told) = body.step();
+            let update = stack_of(|| {
+                let _ = black_box(vehicle_update(&mut vehicle, &measured, &applied));
+            });
+            let state = stack_of(|| {
+                let _ = black_box(vehicle_state(&vehicle));
+            });
+            used = [used[0].max(update), used[1].max(state)];
+            applied = told;
+        }
+    }
+    for (name, bytes) in ["update", "state"].iter().zip(used) {
+        println!("{name} {bytes}");
+    }
 }
 
 /// A tick: measured, states read, forces applied.
