@@ -175,6 +175,9 @@
 // Not usable: the motion contradicts the model, as on the ground or with a motor that does not obey.
 #define FSB_PARAMETER_CONTRADICTED 6
 
+// Not usable: the sums are no numbers, the object's memory has been changed from outside. Reset it.
+#define FSB_PARAMETER_FAULTED 7
+
 // Usable.
 #define FSB_PARAMETER_VALID 8
 

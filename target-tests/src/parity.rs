@@ -1,36 +1,23 @@
-//! Ten seconds of flight at 1 kHz through three configurations, told as a line a second with the hash of every output bit
-//! so far, and the last outputs in full.
+//! Ten seconds of flight at 1 kHz through three configurations, the vehicle's estimator and the regression with drag, told as a line
+//! a second with the hash of every output bit so far, and the last outputs in full.
+
+mod drag;
+mod hash;
+mod vehicle;
 
 use core::fmt;
 
+use self::hash::Hash;
 use crate::scenario::{Faults, Scenario, Tick};
 use crate::six::{Six, configs};
-use fsb_core::estimator::{AxisDiagnostics, AxisState, Counters, StateStatus};
-use fsb_core::readout::{Memory, Parameter, ParameterStatus, Readout};
+use fsb_core::estimator::{AxisDiagnostics, AxisState, Counters};
+use fsb_core::readout::{Memory, Parameter, Readout};
 use fsb_core::{Estimator, EstimatorConfig};
 
 const SECONDS: u32 = 10;
 const RATE: u32 = 1000;
 /// Ticks at which one estimator's identification, then the other one entirely, begins anew.
 const RESETS: [u32; 2] = [7000, 7500];
-
-/// FNV-1a over 32-bit words.
-#[derive(Clone, Copy, Debug)]
-struct Hash(u64);
-
-impl Hash {
-    const START: Self = Self(0xcbf2_9ce4_8422_2325);
-
-    fn word(&mut self, word: u32) {
-        for byte in word.to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    }
-
-    fn float(&mut self, value: f32) {
-        self.word(value.to_bits());
-    }
-}
 
 /// Runs all configurations and hands each line to `line`. `change` is added to the bits of the first measured position:
 /// 0 is the flight, anything else shows that a bit is seen.
@@ -46,7 +33,14 @@ pub fn run(change: u32, line: &mut dyn FnMut(fmt::Arguments)) {
     rotation.noise_sd = Some(1e-4);
     rotation.nominal = [None; 3];
     fly("ramps", &translation, &rotation, change, line);
+    vehicle::run(change, line);
+    drag::run(change, line);
     line(format_args!("end"));
+}
+
+/// The number so many ulps away.
+fn changed(value: f32, ulps: u32) -> f32 {
+    f32::from_bits(value.to_bits().wrapping_add(ulps))
 }
 
 fn fly(
@@ -69,7 +63,7 @@ fn fly(
         if tick == 0
             && let Some([Some(first), ..]) = &mut now.positions
         {
-            *first = f32::from_bits(first.to_bits().wrapping_add(change));
+            *first = changed(*first, change);
         }
         if tick == RESETS[0] {
             six.rotation.reset_identifier();
@@ -118,56 +112,22 @@ fn hash_inputs(tick: &Tick, hash: &mut Hash) {
 fn hash_outputs(six: &Six, hash: &mut Hash) {
     let (t, r) = (&six.translation, &six.rotation);
     for state in t.states().iter().chain(&r.states()).chain(&t.state_sd()).chain(&r.state_sd()) {
-        hash_state(state.as_ref(), hash);
+        hash.state(state.as_ref());
     }
-    t.state_status().iter().chain(&r.state_status()).for_each(|status| hash.word(state_code(*status)));
+    t.state_status().iter().chain(&r.state_status()).for_each(|status| hash.state_status(*status));
     for parameter in t.parameters().iter().chain(&r.parameters()) {
-        hash.word(u32::from(parameter.is_some()));
-        let Some(known) = parameter else { continue };
-        [known.value, known.variance, known.sd()].iter().for_each(|&value| hash.float(value));
+        hash.parameter(parameter.as_ref());
     }
-    t.parameter_status().iter().chain(&r.parameter_status()).for_each(|status| hash.word(parameter_code(*status)));
+    t.parameter_status().iter().chain(&r.parameter_status()).for_each(|status| hash.parameter_status(*status));
     t.diagnostics().iter().chain(&r.diagnostics()).for_each(|axis| hash_diagnostics(axis, hash));
     for Counters { missed, rejected_measurements, rejected_inputs, .. } in [t.counters(), r.counters()] {
         [missed, rejected_measurements, rejected_inputs].iter().for_each(|&count| hash.word(count));
     }
 }
 
-fn hash_state(state: Option<&AxisState>, hash: &mut Hash) {
-    hash.word(u32::from(state.is_some()));
-    let Some(state) = state else { return };
-    hash.float(state.position);
-    hash.float(state.velocity);
-}
-
 fn hash_diagnostics(axis: &AxisDiagnostics, hash: &mut Hash) {
     let AxisDiagnostics { z2, z0, zu, innovation, noise_variance: [fine, band], numerator, denominator } = *axis;
     [z2, z0, zu, innovation, fine, band, numerator, denominator].iter().for_each(|&value| hash.float(value));
-}
-
-fn state_code(status: StateStatus) -> u32 {
-    match status {
-        StateStatus::NotMeasured => 0,
-        StateStatus::Settling => 1,
-        StateStatus::NoParameter => 2,
-        StateStatus::Nominal => 3,
-        StateStatus::Identified => 4,
-        _ => u32::MAX,
-    }
-}
-
-fn parameter_code(status: ParameterStatus) -> u32 {
-    match status {
-        ParameterStatus::Settling => 0,
-        ParameterStatus::Unexcited => 1,
-        ParameterStatus::Uncertain => 2,
-        ParameterStatus::BelowRange => 3,
-        ParameterStatus::AboveRange => 5,
-        ParameterStatus::Contradicted => 6,
-        ParameterStatus::Held => 7,
-        ParameterStatus::Valid => 4,
-        _ => u32::MAX,
-    }
 }
 
 /// The last outputs, bit by bit.

@@ -1,6 +1,8 @@
 //! A flight of six axes as positions and inputs: integers, and IEEE additions and multiplications in f64, so that every
 //! machine computes the same bits.
 
+use crate::random::Random;
+
 /// k of x, y, z, φ, θ, ψ: 1/m [1/kg] and 1/I [1/(kg m²)].
 pub const K: [f64; 6] = [0.7, 0.7, 0.7, 70.0, 65.0, 35.0];
 /// Known drift c.
@@ -38,7 +40,7 @@ pub struct Scenario {
     tick: u32,
     position: [f64; 6],
     velocity: [f64; 6],
-    random: u32,
+    random: Random,
 }
 
 impl Scenario {
@@ -50,7 +52,7 @@ impl Scenario {
             tick: 0,
             position: [0.4, -0.3, 3.0, 0.05, -0.02, 0.3],
             velocity: [0.3, 0.1, -0.2, 0.1, 0.0, -0.1],
-            random: 0x9E37_79B9,
+            random: Random::START,
         }
     }
 
@@ -59,21 +61,13 @@ impl Scenario {
         self.tick
     }
 
-    /// Uniform in [-1, 1): Marsaglia's xorshift.
-    fn noise(&mut self) -> f64 {
-        self.random ^= self.random << 13;
-        self.random ^= self.random >> 17;
-        self.random ^= self.random << 5;
-        f64::from(self.random as i32) * (1.0 / 2_147_483_648.0)
-    }
-
     /// The present tick; the vehicle then moves to the next one.
     pub fn step(&mut self) -> Tick {
         let tick = self.tick;
         self.tick += 1;
         let (mut positions, mut inputs) = ([None; 6], [0.0; 6]);
         for axis in 0..6 {
-            let noise = self.noise() * NOISE[axis];
+            let noise = self.random.uniform() * NOISE[axis];
             positions[axis] = Some((self.position[axis] + noise) as f32);
             let sign = if (tick / HALF_PERIOD[axis]).is_multiple_of(2) { 1.0 } else { -1.0 };
             // Held near the origin by a spring and a damper, so that the flight may last.

@@ -41,8 +41,8 @@ impl Schedule {
         let weights_at = shared_at;
         let gains_at = match block {
             1 => axes % 8,
-            // After the last one of the axes that have a turn then.
-            _ if block < axes => shared_at + (axes - 1) / block * block,
+            // After the last one of the axes that have a turn then. A block is never zero; the compiler need not know.
+            _ if block < axes => shared_at + (axes - 1) / block.max(1) * block,
             _ => shared_at,
         };
         let mut events = 0_u32;

@@ -247,7 +247,7 @@ impl ParameterState {
         let held = self.newest_or_held();
         (self.value, self.variance) = (self.fresh.value, self.fresh.variance);
         self.status = ParameterStatus::Settling;
-        self.read(settled);
+        self.read_newest(settled);
         if self.status != ParameterStatus::Valid {
             self.fresh = self.newest_or_held();
             (self.value, self.variance) = (held.value, held.variance);
@@ -289,8 +289,13 @@ impl ParameterState {
     pub fn read(&mut self, settled: bool) {
         if self.is_held() {
             self.read_beside_held(settled);
-            return;
+        } else {
+            self.read_newest(settled);
         }
+    }
+
+    /// [`read`](Self::read) where nothing is held.
+    fn read_newest(&mut self, settled: bool) {
         if self.ratio.denominator() > 0.0 && self.read_on() {
             return;
         }

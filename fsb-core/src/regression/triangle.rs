@@ -56,9 +56,9 @@ impl Triangle {
     /// Cost: 75 operations, 6 of them divisions, and 50 to fold.
     pub fn add(&mut self, row: &Row, forgetting: f32) -> bool {
         let Row { zu: u, minus_zv: v, z0: f, z2: y } = *row;
-        let within = u.abs().max(v.abs()) <= Self::TOO_MUCH && f.abs().max(y.abs()) <= Self::TOO_MUCH;
-        // The larger of a number and NaN is the number.
-        let sound = within && !(u + v + f + y).is_nan() && u * u >= NOTHING;
+        // Written so that NaN fails it.
+        let within = [u, v, f, y].iter().all(|x| x.abs() <= Self::TOO_MUCH);
+        let sound = within && u * u >= NOTHING;
         if sound {
             let mut weight = 1.0;
             let s = take_in(&mut self.du, u, &mut weight, forgetting);

@@ -6,11 +6,15 @@
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use fsb_core::control::{Reference, TrackingConfig, TrackingController, to_body};
+use fsb_core::control::{
+    Motion, Reference, TrackingConfig, TrackingController, VehicleControlConfig, VehicleController, VehicleReference,
+    to_body,
+};
 use fsb_core::estimator::{AxisState, Learning};
 use fsb_core::guard::{GuardConfig, Guarded};
 use fsb_core::moments::InputMoments;
 use fsb_core::readout::{Memory, ParameterRule, Readout};
+use fsb_core::regression::{DragConfig, DragEstimator, Identify};
 use fsb_core::vehicle::{Attitude, ChangeRule, Expected, Group, Measured, VehicleConfig, VehicleEstimator, Wrench};
 use fsb_core::{Estimator, EstimatorConfig, EstimatorDesign, Tuning};
 use fsb_firmware::attitude_from_quaternion;
@@ -28,7 +32,10 @@ fn main() -> ! {
         guarded::<3, 3>();
         vehicle::<1>();
         vehicle::<16>();
+        drag::<1>();
+        drag::<3>();
         controller();
+        vehicle_controller();
         whole_loop();
         #[cfg(feature = "demonstrate")]
         index_out_of_bounds();
@@ -153,9 +160,57 @@ fn vehicle<const D: usize>() {
             4 => vehicle.reinitialise(if black_box(true) { Group::Translation } else { Group::Rotation }),
             5 => vehicle.reset(),
             6 => drop(black_box((vehicle.translation().states(), vehicle.rotation().states()))),
+            7 => vehicle.set_learning(black_box(Learning::Contact)),
+            8 => vehicle.missed(black_box(3)),
+            9 => drop(black_box((vehicle.translation().diagnostics(), vehicle.rotation().staleness()))),
             _ => return,
         }
     }
+}
+
+fn drag<const N: usize>() {
+    let mut config = DragConfig::<N>::new(black_box(1e-2));
+    config.substeps = black_box(1);
+    config.identifier = Tuning { lambda: black_box(2.0), q: black_box(1.0) };
+    config.observer = black_box(Tuning::from_lambda(10.0));
+    config.identify = black_box([Identify::BOTH; N]);
+    config.memory = if black_box(true) { Memory::Infinite } else { Memory::Fading { tau: black_box(1.0) } };
+    config.drift = black_box([0.0; N]);
+    config.nominal = black_box(None);
+    config.rule = black_box(ParameterRule::default());
+    for limit in [
+        &mut config.excitation,
+        &mut config.drag_sd_limit,
+        &mut config.disturbance_sd_limit,
+        &mut config.parameter_settle,
+        &mut config.state_settle,
+        &mut config.position_limit,
+        &mut config.input_limit,
+    ] {
+        *limit = black_box(*limit);
+    }
+    let Ok(drag) = DragEstimator::new(&config) else { return };
+    let mut drag = black_box(drag);
+    loop {
+        match black_box(0_u32) {
+            0 => drop(black_box(drag.measure(&black_box([Some(0.0); N])))),
+            1 => drag.apply(&black_box([0.0; N])),
+            2 => drag.apply_ramp(&black_box([0.0; N]), &black_box([0.0; N])),
+            3 => drag.reset(),
+            4 => drop(black_box((drag.states(), drag.state_status()))),
+            5 => drop(black_box((drag.parameter(), drag.parameter_status(), drag.terms()))),
+            6 => drop(black_box((drag.diagnostics(), drag.residual_variance(), drag.counters()))),
+            _ => return,
+        }
+    }
+}
+
+fn vehicle_controller() {
+    let Ok(controller) = VehicleController::new(&black_box(VehicleControlConfig::new())) else { return };
+    let (position, velocity, attitude, rates) = black_box(([0.0; 3], [0.0; 3], [[0.0; 3]; 3], [0.0; 3]));
+    let motion = Motion { position, velocity, attitude, rates };
+    let reference = black_box(VehicleReference::hover([0.0; 3]));
+    let _ = black_box(controller.wrench(&reference, &motion, black_box(1.0), black_box([1.0; 3])));
 }
 
 fn controller() {

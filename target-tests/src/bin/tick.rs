@@ -16,12 +16,13 @@ use cortex_m_rt::entry;
 use fsb_core::control::Reference;
 use semihosting::{println, process};
 use target_tests::board::{instructions, overhead};
+use target_tests::cost::Cost;
 use target_tests::scenario::{Faults, Scenario};
 use target_tests::six::{
     DESIGN_BYTES, STATE_BYTES, Six, one, one_apply, one_measure, raw, six_apply, six_measure, six_parameters,
     six_states,
 };
-
+use target_tests::stack::stack_of;
 use target_tests::whole_loop::{flight, loop_tick, sample};
 
 /// A minute at 1 kHz.
@@ -52,34 +53,6 @@ fn main() -> ! {
     }
     println!("end");
     process::exit(0)
-}
-
-/// Mean and worst of a count.
-struct Cost {
-    name: &'static str,
-    sum: u64,
-    ticks: u32,
-    worst: u32,
-    worst_at: u32,
-}
-
-impl Cost {
-    const fn new(name: &'static str) -> Self {
-        Self { name, sum: 0, ticks: 0, worst: 0, worst_at: 0 }
-    }
-
-    fn add(&mut self, tick: u32, count: u32) {
-        self.sum += u64::from(count);
-        self.ticks += 1;
-        if count > self.worst {
-            (self.worst, self.worst_at) = (count, tick);
-        }
-    }
-
-    fn print(&self) {
-        let mean = self.sum as f64 / f64::from(self.ticks);
-        println!("{} mean {mean:.2} worst {} tick {}", self.name, self.worst, self.worst_at);
-    }
 }
 
 /// Instructions of the parts of a tick.
@@ -180,30 +153,6 @@ fn whole_loop() {
         cost.add(tick, end.wrapping_sub(start).saturating_sub(nothing));
     }
     cost.print();
-}
-
-/// Words painted below the stack pointer.
-const PAINTED: usize = 1024;
-const PAINT: u32 = 0xC0FF_EE11;
-
-/// Bytes below the caller's frame that `run` and what it calls have written to.
-#[inline(always)]
-fn stack_of(run: impl FnOnce()) -> usize {
-    let top: usize;
-    // SAFETY: reads the stack pointer.
-    unsafe { core::arch::asm!("mov {}, sp", out(reg) top) };
-    let bottom = top - 4 * PAINTED;
-    for word in 0..PAINTED {
-        // SAFETY: below the stack pointer is RAM that nobody uses: no interrupt is enabled, and the stack has 128 KiB.
-        unsafe { ((bottom + 4 * word) as *mut u32).write_volatile(PAINT) };
-    }
-    run();
-    let mut clean = 0;
-    // SAFETY: as above.
-    while clean < PAINTED && unsafe { ((bottom + 4 * clean) as *const u32).read_volatile() } == PAINT {
-        clean += 1;
-    }
-    4 * (PAINTED - clean)
 }
 
 fn stack() {

@@ -39,9 +39,10 @@ const TRACES: &[Trace] = &[
 /// Counts, sums, compares with `budgets.toml`.
 pub fn run() -> Result<()> {
     let program = TARGET_TESTS.build("tick")?;
-    let counted = parse(&emulator::output(&program, Some("count"))?)?;
+    let mut counted = parse(&emulator::output(&program, Some("count"))?)?;
+    counted.extend(parse(&emulator::output(&TARGET_TESTS.build("vehicle")?, Some("count"))?)?);
     println!(
-        "instructions a tick over a minute; a tick is measure and apply, states and parameters are read beside it"
+        "instructions a tick over a minute (vehicle and drag: half of one); a tick is measure and apply, states and parameters are read beside it"
     );
     let instructions = budgets::check("cost", &counted);
     let cycles = budgets::check("cycles", &cycles(&program)?);

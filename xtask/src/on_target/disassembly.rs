@@ -10,6 +10,10 @@ use super::size::TICK;
 const ONE: &[&str] = &["one_measure", "one_apply"];
 /// The control loop's tick, motors and pin included.
 const LOOP: &[&str] = &["loop_tick"];
+/// The vehicle's estimator, a program of its own.
+const VEHICLE: &[&str] = &["vehicle_update", "vehicle_state"];
+/// The regression with drag, in the same.
+const DRAG: &[&str] = &["drag_measure", "drag_apply", "drag_states"];
 /// A function that calls what a tick must not, to show that it is seen.
 const CULPRITS: &[(&str, &str)] = &[
     ("culprit_expf", "transcendental"),
@@ -24,15 +28,22 @@ const CULPRITS: &[(&str, &str)] = &[
 pub fn run() -> Result<()> {
     let listing = Listing::of(&TARGET_TESTS.build("tick")?)?;
     let mut complaints = Vec::new();
-    for (name, roots) in [("six axes", TICK), ("one axis", ONE), ("control loop", LOOP)] {
+    let vehicle = Listing::of(&TARGET_TESTS.build("vehicle")?)?;
+    for (name, roots, listing) in [
+        ("six axes", TICK, &listing),
+        ("one axis", ONE, &listing),
+        ("control loop", LOOP, &listing),
+        ("vehicle", VEHICLE, &vehicle),
+        ("regression with drag", DRAG, &vehicle),
+    ] {
         let functions = listing.reachable(roots)?;
         let instructions: usize =
             functions.iter().filter_map(|f| listing.functions.get(f)).map(|f| f.instructions.len()).sum();
         println!("{name}: {} functions, {instructions} instructions", functions.len());
-        for line in copies(&listing, &functions) {
+        for line in copies(listing, &functions) {
             println!("  {line}");
         }
-        complaints.extend(check(&listing, roots)?);
+        complaints.extend(check(listing, roots)?);
     }
     if !complaints.is_empty() {
         bail!("in the tick: {}", complaints.iter().map(|complaint| short(complaint)).collect::<Vec<_>>().join("; "));

@@ -20,7 +20,9 @@ pub fn run() -> Result<()> {
         print!("{said}");
         bail!("a panic can be reached, or the program does not build");
     }
-    println!("every entry point of estimator, controller and control loop links without a panic handler");
+    println!(
+        "every entry point of estimators, vehicle, regression, controllers and control loop links without a panic handler"
+    );
     let (linked, said) = link(&["--features", "demonstrate"])?;
     if linked {
         bail!("an index that can be out of bounds linked: this check sees nothing");
