@@ -26,7 +26,7 @@ pub fn fly(name: &str, overrides: &[&str], seed: u64) -> Flight {
     flight
 }
 
-/// Largest magnitude of the error of parameter `index` in percent from `from` [s] to `to` [s]; infinite where there is no
+/// Largest magnitude of the error of parameter `index` in percent from `from` (s) to `to` (s); infinite where there is no
 /// estimate.
 pub fn worst(errors: &[Errors], index: usize, from: f64, to: f64) -> f64 {
     let inside = errors.iter().filter(|e| (from - 1e-6..to + 1e-6).contains(&e.t));
