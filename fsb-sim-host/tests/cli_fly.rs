@@ -61,6 +61,12 @@ fn json_has_the_agreed_keys() {
         "{events:?}"
     );
     assert!(json["small_angle"].as_array().unwrap().len() == 71);
+    // Six rotors of 16 N, tilted by 0.96 rad, push upwards by the cosine of it.
+    let attainable = &json["vehicle"]["attainable"];
+    let most = attainable["vertical_force"][1].as_f64().unwrap();
+    assert!((most - 6.0 * 16.0 * 0.96_f64.cos()).abs() < 1e-9, "{attainable}");
+    assert!((attainable["thrust_to_weight"].as_f64().unwrap() - most / (2.5 * 9.81)).abs() < 1e-9);
+    assert!(json["vehicle"]["condition"].as_f64().unwrap() > 1.0);
     assert!(json["real_time_factor"].as_f64().unwrap() > 1.0);
 }
 
@@ -85,7 +91,16 @@ fn the_report_is_one_page_without_foreign_parts() {
     let output = fsb(root.path(), &["--scenario", "random", "--runs", "3", "--set", "duration=7"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let out = text(&output.stdout);
-    for part in ["what is estimated", "± 2 sd", "yardstick", "Events", "3 flights", "out/fly-random/report.html"] {
+    for part in [
+        "What the vehicle can do",
+        "condition number",
+        "what is estimated",
+        "± 2 sd",
+        "yardstick",
+        "Events",
+        "3 flights",
+        "out/fly-random/report.html",
+    ] {
         assert!(out.contains(part), "{part} is missing in\n{out}");
     }
     let page = std::fs::read_to_string(root.path().join("out/fly-random/report.html")).unwrap();

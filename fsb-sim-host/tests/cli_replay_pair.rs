@@ -125,6 +125,31 @@ fn a_jump_and_a_saturated_motor_get_a_word() {
     assert!(stderr.contains("y jumps by 0.7") && stderr.contains("largest value, 14.0000"), "{stderr}");
 }
 
+/// An attitude from world to body, and a height that is a depth, are noticed although gravity still tells a mass.
+#[test]
+fn wrong_directions_get_a_word() {
+    let (motion, input) = Vehicle::default().record();
+    let told = |columns: &[usize]| {
+        let turned: Vec<String> = motion
+            .lines()
+            .map(|line| {
+                let cell = |(i, cell): (usize, &str)| match cell.parse::<f64>() {
+                    Ok(number) if columns.contains(&i) => (-number).to_string(),
+                    _ => cell.to_owned(),
+                };
+                line.split(',').enumerate().map(cell).collect::<Vec<_>>().join(",")
+            })
+            .collect();
+        String::from_utf8_lossy(&replay(&turned.join("\n"), &input, &[]).0.stderr).into_owned()
+    };
+    assert_eq!(told(&[]), "");
+    // All four signs of a quaternion turned are the same attitude, three of them its inverse.
+    assert_eq!(told(&[4, 5, 6, 7]), "");
+    let inverse = told(&[5, 6, 7]);
+    assert!(inverse.contains("x, y: the motion goes against the force"), "{inverse}");
+    assert!(told(&[3]).contains("z: the motion goes against the force"));
+}
+
 #[test]
 fn columns_by_other_names() {
     let (motion, input) = Vehicle::default().record();

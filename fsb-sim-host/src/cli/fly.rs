@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use fsb_sim_host::fly::able::{self, Ability};
 use fsb_sim_host::fly::many::{Flights, Spread};
 use fsb_sim_host::fly::record::{Errors, Event, Flight, ParameterEnd, StateErrors, Tracking};
 use fsb_sim_host::fly::{self, Scenario, fly_many, page};
@@ -83,6 +84,7 @@ struct Json<'a> {
     tracking: Tracking,
     state: StateErrors,
     events: &'a [Event],
+    vehicle: Option<Ability>,
     #[serde(skip_serializing_if = "Option::is_none")]
     small_angle: Option<&'a [Errors]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -141,6 +143,7 @@ impl<'a> Json<'a> {
             tracking: first.tracking,
             state: first.state,
             events: &first.events,
+            vehicle: able::of(scenario, seed),
             small_angle: first.small_angle.as_deref(),
             distribution: Distribution::of(flights),
             real_time_factor: flights.real_time_factor,

@@ -18,7 +18,8 @@ use std::process::ExitCode;
 /// From the noise of the position sensor and its rate, and one wish for the velocity: its noise, or the bandwidth or the delay for
 /// what the model does not know (what the input does is predicted, and never late). The formulas are in docs/tuning.md.
 ///
-/// k is told by the input: gravity that the thrust holds, and accelerations on top of it, as a sine of one frequency on one axis.
+/// k is told by the input: gravity that the thrust holds, and accelerations on top of it, as a sine of one frequency on one axis that
+/// begins at its crest.
 #[derive(Debug, Parser)]
 #[command(allow_negative_numbers = true)]
 #[allow(rustdoc::broken_intra_doc_links, reason = "units in brackets; this is the help text")]

@@ -10,11 +10,13 @@
 //! | `record`, `outcome` | a flight recorded, and what is kept of it |
 //! | `small_angle` | the paper's rotational model looking on |
 //! | `many` | many flights on all cores |
+//! | `able` | what the vehicle can do |
 //! | `tables`, `figures`, `scene`, `page` | the report |
 
 // Units stand in brackets; they are no links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+pub mod able;
 pub mod error;
 pub mod figures;
 pub mod flight;

@@ -1,5 +1,6 @@
 //! What a run prints: parameters over time, tracking beside the yardstick, events, many flights.
 
+use super::able;
 use super::many::{Flights, Spread};
 use super::record::{Errors, Flight, NAMES, Sample, TRACKING_FROM, truths};
 use super::scenario::Scenario;
@@ -17,6 +18,8 @@ pub fn tables(scenario: &Scenario, flights: &Flights) -> Vec<Table> {
     if flights.runs.len() > 1 {
         tables.push(spread(flights));
     }
+    let ability = flights.runs.first().and_then(|run| able::of(scenario, run.seed));
+    tables.extend(ability.as_ref().map(able::table));
     tables
 }
 
@@ -55,9 +58,13 @@ fn at_times(scenario: &Scenario, flight: &Flight) -> Table {
     }
     let columns = std::iter::once("t [s]").chain(headers).map(Column::right).collect();
     let mut table = Table::new(&format!("{}: errors", scenario.name), columns);
-    for t in [0.3, 0.6, 1.2, 2.0, 3.0, 5.0, 8.0, 10.0, 15.0, 20.0, flight.flown] {
-        let at = |errors: &[Errors]| errors.iter().rev().find(|e| e.t <= t + 1e-6).copied();
-        let Some(errors) = at(&flight.errors).filter(|e| t <= flight.flown && t - e.t < 0.099) else { continue };
+    let times = [0.3, 0.6, 1.2, 2.0, 3.0, 5.0, 8.0, 10.0, 15.0, 20.0];
+    for t in times.into_iter().filter(|t| *t < flight.flown - 0.05).chain([flight.flown]) {
+        // The nearest, for at some rates no tick is just there.
+        let at = |errors: &[Errors]| errors.iter().copied().min_by(|a, b| (a.t - t).abs().total_cmp(&(b.t - t).abs()));
+        let Some(errors) = at(&flight.errors).filter(|e| (t - e.t).abs() < 0.099) else {
+            continue;
+        };
         let cell = |value: Option<f64>| value.map_or(Cell::Missing, |v| Cell::fixed(v, 3));
         let mut row = vec![Cell::fixed(errors.t, 1)];
         row.extend(errors.all().map(cell));

@@ -4,6 +4,8 @@
 //! attainable exactly if its six thrusts lie in the box, and how far one can go from a wrench in a direction is where a
 //! straight line leaves the box: six divisions, no search.
 
+use serde::Serialize;
+
 use super::frame::{Frame, Wrench};
 use super::vector::Vector;
 
@@ -25,7 +27,7 @@ pub struct Allocator {
 }
 
 /// What the vehicle can do, each component alone unless stated; `[low, high]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Attainable {
     /// All thrusts at their most along body z, by the weight.
     pub thrust_to_weight: f64,

@@ -17,6 +17,7 @@
 //! | `ulog` | a ULog file as a flight |
 //! | `recording` | any of them, ready for the core |
 //! | `lag`, `fit` | the time offset of the input, by a regression in f64 |
+//! | `convention` | whether positions, attitude and force speak of the same directions |
 //! | `options` | what can be set, and the core's configuration that follows |
 //! | `feed` | a group of axes through one estimator, sample by sample |
 //! | `identified`, `informed` | the same with drag and disturbance, on the way and with what the whole flight tells |
@@ -29,6 +30,7 @@
 //! | `error` | why a replay was refused |
 
 pub mod compare;
+mod convention;
 pub mod error;
 pub mod estimates;
 mod feed;

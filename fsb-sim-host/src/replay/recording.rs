@@ -1,5 +1,6 @@
 //! What is replayed, wherever it came from: an axis log, two files, or a ULog.
 
+use super::convention::opposed;
 use super::fit::{Terms, fit, rows};
 use super::flight::{Flight, FlightError, HoverThrust, ThrustUnit, notice};
 use super::lag::{FoundLag, Lag, find};
@@ -90,9 +91,12 @@ impl Recording {
             return Err(too_late(file));
         }
         let log = flight.on_grid(file, lag, known)?;
-        if let Some(told) = fit(&rows(&log, options.identifier, gravity), Terms { drag: false, disturbance: false }) {
+        let filtered = rows(&log, options.identifier, gravity);
+        if let Some(told) = fit(&filtered, Terms { drag: false, disturbance: false }) {
             known.k = told.k;
         }
+        let names: Vec<&str> = log.axes.iter().map(|axis| axis.axis.name()).collect();
+        notices.extend(opposed(&names, &filtered, known.k, options.identifier.lambda * log.period));
         let log = flight.on_grid(file, lag, known)?;
         Ok(Self { log, lag, search, notices, unit: flight.unit, hover: flight.hover, at_own_stamps: true })
     }
