@@ -5,6 +5,7 @@ use fsb_core::readout::{Memory, Readout};
 use fsb_core::vehicle::{ChangeRule, Expected, GroupConfig, VehicleConfig};
 
 use super::frame::Frame;
+use super::names::c_name;
 use crate::config::{FSB_READOUT_ABSOLUTE_RATIO, FSB_READOUT_LEAST_SQUARES, Refusal, fsb_tuning_t, known};
 use crate::status::FSB_CONFIG_OUT_OF_RANGE;
 
@@ -133,13 +134,13 @@ impl fsb_vehicle_config_t {
     }
 
     pub(super) fn to_core(self) -> Result<(VehicleConfig, Frame), Refusal> {
-        let refused = |at| (FSB_CONFIG_OUT_OF_RANGE, at);
-        let frame = Frame::of(self.frame).ok_or(refused(c"frame"))?;
+        let refused = |at| (FSB_CONFIG_OUT_OF_RANGE, c_name(at));
+        let frame = Frame::of(self.frame).ok_or_else(|| refused("frame"))?;
         let fsb_change_t { relative, sigmas, hold_off } = self.change;
         let config = VehicleConfig {
             period: self.period,
-            translation: self.translation.to_core().ok_or(refused(c"translation.readout"))?,
-            rotation: self.rotation.to_core().ok_or(refused(c"rotation.readout"))?,
+            translation: self.translation.to_core().ok_or_else(|| refused("translation.readout"))?,
+            rotation: self.rotation.to_core().ok_or_else(|| refused("rotation.readout"))?,
             gravity: self.gravity,
             mass: self.mass.into(),
             inertia: self.inertia.map(Expected::from),

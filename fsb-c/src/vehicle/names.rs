@@ -1,4 +1,7 @@
 //! The names of the configuration's parameters.
+//!
+//! In one piece: texts of their own would stand in a section with all others, which the linker keeps as a whole in programs that
+//! use nothing of this.
 
 use core::ffi::CStr;
 
@@ -7,72 +10,75 @@ use fsb_core::ConfigError;
 use crate::config::Refusal;
 use crate::status::of_config;
 
-/// Text that ends as C expects.
-macro_rules! text {
-    ($($part:literal),+) => {
-        match CStr::from_bytes_with_nul(concat!($($part,)+ "\0").as_bytes()) {
-            Ok(text) => text,
-            Err(_) => c"configuration",
-        }
+macro_rules! texts {
+    ([$($of_group:literal),+ $(,)?], [$($other:literal),+ $(,)?]) => {
+        concat!(
+            $("translation.", $of_group, "\0",)+
+            $("rotation.", $of_group, "\0",)+
+            $($other, "\0",)+
+        )
     };
 }
 
-/// A name in either group.
-macro_rules! groups {
-    ($($name:literal),+ $(,)?) => {
-        [$([text!("translation.", $name), text!("rotation.", $name)]),+]
-    };
-}
-
-static OF_GROUPS: [[&CStr; 2]; 20] = groups![
-    "substeps",
-    "latency",
-    "block",
-    "identifier.lambda",
-    "identifier.q",
-    "observer.lambda",
-    "observer.q",
-    "noise_sd",
-    "max_relative_sd",
-    "max_misfit",
-    "parameter_settle",
-    "state_settle",
-    "measurement_limit",
-    "input_limit",
-    "guard.sigmas",
-    "guard.acceleration",
-    "guard.floor",
-    "guard.jump_after",
-    "guard.bridge",
-    "guard.frozen_after",
-];
-
-static OTHERS: [&CStr; 12] = [
-    c"period",
-    c"gravity",
-    c"mass.nominal",
-    c"mass.min",
-    c"mass.max",
-    c"inertia.nominal",
-    c"inertia.min",
-    c"inertia.max",
-    c"actuator_lag",
-    c"change.relative",
-    c"change.sigmas",
-    c"change.hold_off",
-];
+/// Each with a zero behind it.
+static NAMES: &str = texts!(
+    [
+        "substeps",
+        "latency",
+        "block",
+        "readout",
+        "identifier.lambda",
+        "identifier.q",
+        "observer.lambda",
+        "observer.q",
+        "noise_sd",
+        "memory_tau",
+        "max_relative_sd",
+        "max_misfit",
+        "parameter_settle",
+        "state_settle",
+        "measurement_limit",
+        "input_limit",
+        "guard.sigmas",
+        "guard.acceleration",
+        "guard.floor",
+        "guard.jump_after",
+        "guard.bridge",
+        "guard.frozen_after",
+    ],
+    [
+        "period",
+        "frame",
+        "gravity",
+        "mass.nominal",
+        "mass.min",
+        "mass.max",
+        "inertia.nominal",
+        "inertia.min",
+        "inertia.max",
+        "actuator_lag",
+        "change.relative",
+        "change.sigmas",
+        "change.hold_off",
+    ]
+);
 
 /// The code of a refused configuration, and the core's name of the parameter as the field is called in C.
 pub(super) fn refusal(error: ConfigError) -> Refusal {
-    (of_config(error), c_name(error.parameter()))
+    let name = match error.parameter() {
+        "translation.memory.tau" => "translation.memory_tau",
+        "rotation.memory.tau" => "rotation.memory_tau",
+        name => name,
+    };
+    (of_config(error), c_name(name))
 }
 
-fn c_name(name: &str) -> &'static CStr {
-    match name {
-        "translation.memory.tau" => return c"translation.memory_tau",
-        "rotation.memory.tau" => return c"rotation.memory_tau",
-        _ => {}
-    }
-    let same = |text: &&&'static CStr| text.to_bytes() == name.as_bytes();
-    OF_GROUPS.as_flattened().iter().chain(&OTHERS).find(same).copied().unwrap_or(c"configuration")
+/// A name of the configuration as C text.
+pub(super) fn c_name(name: &str) -> &'static CStr {
+    NAMES
+        .as_bytes()
+        .split_inclusive(|byte| *byte == 0)
+        .filter_map(|text| CStr::from_bytes_with_nul(text).ok())
+        .find(|text| text.to_bytes() == name.as_bytes())
+        .unwrap_or(c"configuration")
 }
