@@ -1025,7 +1025,8 @@ struct fsb_measured_t fsb_measured_none(void);
 //
 // Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault as it is
 // written in the configuration ("rotation.observer.lambda"; static storage), and the object is not initialised. Without
-// a fault `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in double precision.
+// a fault `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in double precision,
+// and about 12 KiB of stack on a Cortex-M4F (an update takes 1.2 KiB).
 fsb_status_t fsb_vehicle_init(struct fsb_vehicle_t *vehicle,
                               const struct fsb_vehicle_config_t *config,
                               const char **parameter);
