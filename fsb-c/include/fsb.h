@@ -7,6 +7,9 @@
 //
 // A tick:     measure (where a measurement is due)  ->  states, parameters  ->  control  ->  apply (what the actuators hold)
 //
+// Or the whole vehicle at any attitude, fsb_vehicle_t: mass, moments of inertia, position, velocity, attitude and rates.
+// A tick:     update (what was measured, what the actuators did)  ->  state, model  ->  control
+//
 // Rules for every function:
 // - Storage is the caller's: static, on a stack or in a structure. No heap, no globals, no locks, nothing to destroy.
 //   Declare it as `static fsb_axis_t estimator;` or fill it with zeros: before its initialisation an object answers
@@ -145,6 +148,9 @@
 // Not usable: no k to predict with, as k is not valid and no nominal k was configured.
 #define FSB_STATE_NO_PARAMETER 3
 
+// Not usable: not measured for longer than is bridged by prediction (fsb_vehicle_t).
+#define FSB_STATE_STALE 4
+
 // Usable, predicted with the nominal k.
 #define FSB_STATE_NOMINAL 8
 
@@ -183,6 +189,60 @@
 
 // Usable: the k from before the identification began anew, until the new one is valid.
 #define FSB_PARAMETER_HELD 9
+
+// sizeof(fsb_vehicle_t).
+#define FSB_VEHICLE_SIZE 10240
+
+// Alignment of fsb_vehicle_t.
+#define FSB_VEHICLE_ALIGNMENT 8
+
+// The largest latency that can be configured [control periods]: how many of them an fsb_vehicle_t has room for.
+#define FSB_VEHICLE_MAX_LATENCY 128
+
+// x, y, z: the mass.
+#define FSB_GROUP_TRANSLATION 0
+
+// The angles about the body's axes: the moments of inertia.
+#define FSB_GROUP_ROTATION 1
+
+// World with z up (ENU, or any other: x and y as you like), body x forward, y left, z up. The default.
+#define FSB_FRAME_Z_UP 0
+
+// World with z down (NED), body x forward, y right, z down (FRD): PX4 and ArduPilot.
+#define FSB_FRAME_Z_DOWN 1
+
+// No attitude has come.
+#define FSB_ATTITUDE_NONE 0
+
+// Body to world by rows: attitude[3 i + j] is the component of body axis j along world axis i.
+#define FSB_ATTITUDE_MATRIX 1
+
+// Body to world as a unit quaternion w, x, y, z in attitude[0..3]; q and -q are the same.
+#define FSB_ATTITUDE_QUATERNION 2
+
+// An attitude was none, or cannot be true, and was taken as missing.
+#define FSB_EVENT_ATTITUDE_REJECTED 1
+
+// The attitude has turned by more than could be followed: the rotation begins anew, the moments of inertia are held.
+#define FSB_EVENT_ATTITUDE_LOST 2
+
+// A position was not finite, beyond its limit or cannot be true, and was taken as missing.
+#define FSB_EVENT_POSITION_REJECTED 4
+
+// The origin of the positions has jumped: they were followed, and velocity and mass have not noticed.
+#define FSB_EVENT_POSITION_JUMPED 8
+
+// A position came between two measurement instants, and was not taken.
+#define FSB_EVENT_POSITION_OUT_OF_STEP 16
+
+// A force or a torque was not finite or beyond its limit; the one before was taken in its place.
+#define FSB_EVENT_WRENCH_REJECTED 32
+
+// The mass has changed: it is identified anew, the old one held until then.
+#define FSB_EVENT_MASS_CHANGED 64
+
+// A moment of inertia has changed: all three are identified anew, the old ones held until then.
+#define FSB_EVENT_INERTIA_CHANGED 128
 
 // Version of the interface that this header describes: 65536 * major + 256 * minor + patch. Compare it once at
 // start-up with fsb_version(): header and library must be of the same version.
@@ -461,6 +521,185 @@ typedef struct fsb_parameter_report_t {
   // Standard deviation of 1/k.
   float inverse_sd;
 } fsb_parameter_report_t;
+
+// What makes a measurement one that cannot be true. It is left out and counted then.
+typedef struct fsb_guard_t {
+  // A step of the innovation of more than so many of its standard deviations is improbable. 3..1000.
+  double sigmas;
+  // The largest acceleration that the model may not know of [m/s^2 or rad/s^2]: a load dropped, wind. 0..1e6.
+  double acceleration;
+  // Steps up to this always pass [m or rad]: a few quanta of the sensor. 0..1e6.
+  double floor;
+  // Gaps up to this are bridged by prediction [s]; after longer ones the state is stale and begins anew, masses and
+  // inertias being held. Positive, at most 65534 measurements.
+  double bridge;
+  // So many improbable measurements in a row that agree with each other are a jump of the sensor. 2..65535.
+  uint32_t jump_after;
+  // A measurement whose bits have been the same for more than so many samples is one of a frozen sensor; 0: never.
+  // Up to 65535.
+  uint32_t frozen_after;
+} fsb_guard_t;
+
+// One of the two groups of axes: x, y, z, or the angles about the body's axes.
+typedef struct fsb_vehicle_group_t {
+  // Control periods from one measurement to the next, at least 1.
+  uint32_t substeps;
+  // Control periods by which a measurement is late: what is given at an update was true so many periods before.
+  // Up to FSB_VEHICLE_MAX_LATENCY; that of the translation not below that of the rotation.
+  uint32_t latency;
+  // Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper.
+  uint32_t block;
+  // FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
+  uint32_t readout;
+  // Tuning of the identifier; runs at period * substeps * block.
+  struct fsb_tuning_t identifier;
+  // Tuning of the observer; runs at period * substeps.
+  struct fsb_tuning_t observer;
+  // Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN.
+  double noise_sd;
+  // Time constant [s] with which the identifier forgets; INFINITY: never.
+  double memory_tau;
+  // The largest relative standard deviation at which a parameter becomes valid.
+  double max_relative_sd;
+  // The largest share of the filtered acceleration's mean square that the model may leave unexplained before a
+  // parameter is contradicted; above 0, up to 1. NaN: not asked.
+  double max_misfit;
+  // No parameter is valid earlier than this after a reset [s].
+  double parameter_settle;
+  // States are not valid earlier than this after the first measurement [s].
+  double state_settle;
+  // What cannot be true.
+  struct fsb_guard_t guard;
+  // A position, or a body angle, of larger magnitude is rejected [m or rad]. Up to 1e6.
+  double measurement_limit;
+  // A force or torque with a larger component is rejected [N or N m]. Up to 5e5.
+  double input_limit;
+} fsb_vehicle_group_t;
+
+// What is known of a mass [kg] or a moment of inertia [kg m^2] beforehand; fsb_expected_about fills it in.
+typedef struct fsb_expected_t {
+  // Predicted with until the parameter is identified. NaN: not known, and no state is handed out before.
+  double nominal;
+  // The smallest that can be right; positive. A smaller estimate is never used.
+  double min;
+  // The largest that can be right.
+  double max;
+} fsb_expected_t;
+
+// When a change of mass or inertia is taken as such, and identified anew.
+typedef struct fsb_change_t {
+  // The smallest change to react to, relative: 0.15 is a good choice. 1e-3..1e3; 0: changes are not looked for.
+  double relative;
+  // By how many of its standard deviations the change must show. 1..1e3.
+  double sigmas;
+  // Time after a start or a change in which nothing is decided [s]. 0..1e6.
+  double hold_off;
+} fsb_change_t;
+
+// Configuration of an fsb_vehicle_t. Start from fsb_vehicle_config_default.
+typedef struct fsb_vehicle_config_t {
+  // Control period [s]: the time from one update to the next. 1e-6..1e3.
+  double period;
+  // FSB_FRAME_Z_UP or FSB_FRAME_Z_DOWN: the axes of everything that goes in and out.
+  uint32_t frame;
+  // x, y, z, pooled into the mass.
+  struct fsb_vehicle_group_t translation;
+  // Angles about the body's x, y, z, each with its moment of inertia.
+  struct fsb_vehicle_group_t rotation;
+  // Gravity [m/s^2], downwards whatever the frame. 0..1e6.
+  double gravity;
+  // Mass [kg].
+  struct fsb_expected_t mass;
+  // Moments of inertia about the body's x, y, z [kg m^2].
+  struct fsb_expected_t inertia[3];
+  // Time constant of force and torque behind what the actuators are told, first order [s]: from a twentieth of the
+  // period to 1e3, or 0 where they follow at once.
+  double actuator_lag;
+  // When a change of load is taken as such.
+  struct fsb_change_t change;
+} fsb_vehicle_config_t;
+
+// What was measured and has arrived by now. Start from fsb_measured_none.
+typedef struct fsb_measured_t {
+  // x, y, z in the world frame [m]; NaN, all three, where none has come.
+  float position[3];
+  // FSB_ATTITUDE_NONE, FSB_ATTITUDE_MATRIX or FSB_ATTITUDE_QUATERNION: what `attitude` holds.
+  uint32_t attitude_kind;
+  // Body to world, in that form.
+  float attitude[9];
+} fsb_measured_t;
+
+// Mass, moments of inertia, position, velocity, attitude and body rates of a vehicle at any attitude, from positions and
+// attitudes and from what its actuators did. Storage of the caller, static or a member: too large for most stacks.
+typedef struct fsb_vehicle_t {
+  // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
+  uint64_t opaque[1280];
+} fsb_vehicle_t;
+
+// Force and torque on the body about its centre of mass, along the body's axes.
+typedef struct fsb_wrench_t {
+  // Force [N], gravity not included.
+  float force[3];
+  // Torque [N m], the gyroscopic moment not included.
+  float torque[3];
+} fsb_wrench_t;
+
+// The state now. What may not be used is NaN; the two `..._status` say why.
+typedef struct fsb_vehicle_state_t {
+  // World frame [m].
+  float position[3];
+  // World frame [m/s].
+  float velocity[3];
+  // Body to world by rows: attitude[3 i + j] is the component of body axis j along world axis i. While the rates are
+  // not known yet it is the attitude as measured, if that is of now.
+  float attitude[9];
+  // About the body's axes [rad/s].
+  float rates[3];
+  // Whether position and velocity may be used, and why not: usable is FSB_STATE_NOMINAL or more.
+  fsb_state_status_t translation_status;
+  // The same for the rates.
+  fsb_state_status_t rotation_status;
+} fsb_vehicle_state_t;
+
+// An identified mass [kg] or moment of inertia [kg m^2]. `value` and `variance` are NaN where `status` says that they may
+// not be used.
+typedef struct fsb_identified_t {
+  // Mass or moment of inertia.
+  float value;
+  // Its variance; the square root of it is the standard deviation.
+  float variance;
+  // Whether it may be used, and why not: usable is FSB_PARAMETER_VALID or more. Its k is 1/value: FSB_PARAMETER_BELOW is
+  // a mass that is too large.
+  fsb_parameter_status_t status;
+} fsb_identified_t;
+
+// What is predicted with, and what a controller may divide by: identified, else held, else nominal; else NaN.
+typedef struct fsb_vehicle_model_t {
+  // Mass [kg].
+  float mass;
+  // Moments of inertia [kg m^2].
+  float inertia[3];
+} fsb_vehicle_model_t;
+
+// How often what happened since the initialisation; a reset does not clear them. They stop at the largest number.
+typedef struct fsb_vehicle_counters_t {
+  // FSB_EVENT_ATTITUDE_REJECTED
+  uint32_t rejected_attitudes;
+  // FSB_EVENT_ATTITUDE_LOST
+  uint32_t lost_attitudes;
+  // FSB_EVENT_POSITION_REJECTED
+  uint32_t rejected_positions;
+  // FSB_EVENT_POSITION_JUMPED
+  uint32_t position_jumps;
+  // FSB_EVENT_POSITION_OUT_OF_STEP
+  uint32_t positions_out_of_step;
+  // FSB_EVENT_WRENCH_REJECTED
+  uint32_t rejected_wrenches;
+  // FSB_EVENT_MASS_CHANGED
+  uint32_t mass_changes;
+  // FSB_EVENT_INERTIA_CHANGED
+  uint32_t inertia_changes;
+} fsb_vehicle_counters_t;
 
 #ifdef __cplusplus
 extern "C" {
@@ -769,6 +1008,94 @@ const char *fsb_state_status_name(fsb_state_status_t status);
 // The name of a parameter status as it stands in this header. Static storage, never NULL.
 const char *fsb_parameter_status_name(fsb_parameter_status_t status);
 
+// The configuration for a control period [s], which is not checked here: z up, every period measured and nothing late,
+// lambda 4 for both identifiers, 10 and 20 for the observers of translation and rotation, q half of it, least squares
+// that never forget, valid at 5 %, gravity 9.81, mass within 1 g and 1000 kg, inertia within 1e-7 and 1000 kg m^2, no
+// nominal values (no state before mass and inertia are identified: set `mass` and `inertia` with fsb_expected_about), no
+// lag, changes not looked for.
+struct fsb_vehicle_config_t fsb_vehicle_config_default(double period);
+
+// A mass or moment of inertia of roughly `nominal`: within a tenth and ten times of it.
+struct fsb_expected_t fsb_expected_about(double nominal);
+
+// Nothing measured: position NaN, no attitude. Fill in what has come. For the tick.
+struct fsb_measured_t fsb_measured_none(void);
+
+// Starts an estimator in the caller's storage. Nothing else may be called with it before; calling it again starts anew.
+//
+// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, or FSB_CONFIG_...: then `*parameter` names the parameter at fault as it is
+// written in the configuration ("rotation.observer.lambda"; static storage), and the object is not initialised. Without
+// a fault `*parameter` becomes NULL; `parameter` itself may be NULL. Not for the tick: exponentials in double precision,
+// and about 12 KiB of stack on a Cortex-M4F (an update takes 1.2 KiB).
+fsb_status_t fsb_vehicle_init(struct fsb_vehicle_t *vehicle,
+                              const struct fsb_vehicle_config_t *config,
+                              const char **parameter);
+
+// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// FSB_NOT_INITIALISED.
+fsb_status_t fsb_vehicle_reset(struct fsb_vehicle_t *vehicle);
+
+// Identifies the parameters of a group anew, as after a known change of load: what is known goes on being handed out
+// (FSB_PARAMETER_HELD) and used until the new value is valid. `group`: FSB_GROUP_TRANSLATION or FSB_GROUP_ROTATION.
+// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_UNKNOWN_VALUE.
+fsb_status_t fsb_vehicle_reinitialise(struct fsb_vehicle_t *vehicle,
+                                      uint32_t group);
+
+// Whether to learn from now on: FSB_LEARNING_ON, FSB_LEARNING_OFF or, on the ground, FSB_LEARNING_CONTACT. When learning
+// resumes the identification begins anew, what is known being held. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// FSB_NOT_INITIALISED, FSB_UNKNOWN_VALUE.
+fsb_status_t fsb_vehicle_set_learning(struct fsb_vehicle_t *vehicle,
+                                      uint32_t learning);
+
+// One control period has ended. `measured` is what has arrived by now; `applied` is the force and torque that the
+// actuators held over the period that ends now, or were told where `actuator_lag` is set. Once per control period; what
+// is measured less often or not at all is missing. At the very first call, which ends no period, `applied` does not
+// matter.
+//
+// What is not finite, beyond its limit or cannot be true is left out, counted, and told in `*events`, the sum of
+// FSB_EVENT_...; `events` may be NULL. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_UNKNOWN_VALUE
+// (`attitude_kind`); nothing has changed then, and `*events` is 0. For the tick: bounded work.
+fsb_status_t fsb_vehicle_update(struct fsb_vehicle_t *vehicle,
+                                const struct fsb_measured_t *measured,
+                                const struct fsb_wrench_t *applied,
+                                uint32_t *events);
+
+// The control loop has been late by so many control periods, in which the actuators did what they were told last: as many
+// updates with nothing measured, at most those of twice `guard.bridge`. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// FSB_NOT_INITIALISED.
+fsb_status_t fsb_vehicle_missed(struct fsb_vehicle_t *vehicle,
+                                uint32_t periods);
+
+// Hands out position, velocity, attitude and rates now, predicted over what measurements are late. What is not valid is
+// NaN and a status says why.
+//
+// Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED; `state` holds NaN then, where it can be written. For the
+// tick: the work grows with the latency.
+fsb_status_t fsb_vehicle_state(const struct fsb_vehicle_t *vehicle,
+                               struct fsb_vehicle_state_t *state);
+
+// Hands out the mass. What is not valid is NaN and its `status` says why. Errors as fsb_vehicle_state. For the tick.
+fsb_status_t fsb_vehicle_mass(const struct fsb_vehicle_t *vehicle,
+                              struct fsb_identified_t *mass);
+
+// Hands out the moments of inertia about the body's x, y, z. Errors as fsb_vehicle_state. For the tick.
+fsb_status_t fsb_vehicle_inertia(const struct fsb_vehicle_t *vehicle,
+                                 struct fsb_identified_t inertia[3]);
+
+// Hands out the mass and the moments of inertia that the state is predicted with, and that a controller may divide by.
+// Errors as fsb_vehicle_state. For the tick.
+fsb_status_t fsb_vehicle_model(const struct fsb_vehicle_t *vehicle,
+                               struct fsb_vehicle_model_t *model);
+
+// Hands out what was rejected, lost or changed. Errors as fsb_vehicle_state; the counters are zero then. For the tick.
+fsb_status_t fsb_vehicle_counters(const struct fsb_vehicle_t *vehicle,
+                                  struct fsb_vehicle_counters_t *counters);
+
+// Hands out inner signals of x, y, z and of the angles about the body's x, y, z, in the axes of FSB_FRAME_Z_UP: for logs
+// and tests. Errors as fsb_vehicle_state. Not for the tick: divisions.
+fsb_status_t fsb_vehicle_diagnostics(const struct fsb_vehicle_t *vehicle,
+                                     struct fsb_diagnostics_t diagnostics[6]);
+
 // Version of the library, coded as FSB_VERSION.
 uint32_t fsb_version(void);
 
@@ -786,6 +1113,8 @@ FSB_STATIC_ASSERT(sizeof(fsb_translation_t) == FSB_TRANSLATION_SIZE, translation
 FSB_STATIC_ASSERT(FSB_ALIGNOF(fsb_translation_t) == FSB_TRANSLATION_ALIGNMENT, translation_alignment);
 FSB_STATIC_ASSERT(sizeof(fsb_rotation_t) == FSB_ROTATION_SIZE, rotation_size);
 FSB_STATIC_ASSERT(FSB_ALIGNOF(fsb_rotation_t) == FSB_ROTATION_ALIGNMENT, rotation_alignment);
+FSB_STATIC_ASSERT(sizeof(fsb_vehicle_t) == FSB_VEHICLE_SIZE, vehicle_size);
+FSB_STATIC_ASSERT(FSB_ALIGNOF(fsb_vehicle_t) == FSB_VEHICLE_ALIGNMENT, vehicle_alignment);
 FSB_STATIC_ASSERT(sizeof(fsb_tracking_t) == FSB_TRACKING_SIZE, tracking_size);
 FSB_STATIC_ASSERT(FSB_ALIGNOF(fsb_tracking_t) == FSB_TRACKING_ALIGNMENT, tracking_alignment);
 

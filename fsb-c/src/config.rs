@@ -177,7 +177,7 @@ conversions!(fsb_translation_config_t, 3, 1);
 conversions!(fsb_rotation_config_t, 3, 3);
 
 /// NaN stands for a value that is not known.
-fn known(value: f64) -> Option<f64> {
+pub(crate) fn known(value: f64) -> Option<f64> {
     if value.is_nan() { None } else { Some(value) }
 }
 

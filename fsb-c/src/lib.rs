@@ -12,6 +12,7 @@
 //! | `estimator` | what can be done with an estimator of any shape |
 //! | `values` | what goes in and out |
 //! | `axis`, `translation`, `rotation` | the C functions of the three estimators |
+//! | `vehicle` | the C functions of the estimator in six degrees of freedom |
 //! | `tracking` | the C functions of the controller, and (11) |
 //! | `panic` | the panic handler on the microcontroller |
 
@@ -31,4 +32,5 @@ pub mod status;
 pub mod tracking;
 pub mod translation;
 pub mod values;
+pub mod vehicle;
 pub mod version;

@@ -12,15 +12,14 @@ use crate::version::FSB_VERSION;
 
 /// Opaque storage in C, and the Rust value kept in it.
 pub(crate) trait Object {
-    /// What is kept.
-    type Value: Copy;
+    /// What is kept: numbers and nothing that must be dropped, so that C may copy and overwrite the storage.
+    type Value;
     /// Tells the kinds of objects apart.
     const KIND: u32;
 }
 
 /// What stands in the storage. The mark comes first.
 #[repr(C)]
-#[derive(Clone, Copy)]
 pub(crate) struct Marked<V> {
     mark: [u32; 2],
     value: V,

@@ -21,6 +21,8 @@ pub const FSB_STATE_NOT_MEASURED: i32 = 1;
 pub const FSB_STATE_SETTLING: i32 = 2;
 /// Not usable: no k to predict with, as k is not valid and no nominal k was configured.
 pub const FSB_STATE_NO_PARAMETER: i32 = 3;
+/// Not usable: not measured for longer than is bridged by prediction (fsb_vehicle_t).
+pub const FSB_STATE_STALE: i32 = 4;
 /// Usable, predicted with the nominal k.
 pub const FSB_STATE_NOMINAL: i32 = 8;
 /// Usable, predicted with the identified k.
@@ -138,15 +140,7 @@ impl fsb_state_t {
     pub(crate) const INVALID: Self = Self { position: f32::NAN, velocity: f32::NAN, status: FSB_STATE_UNKNOWN };
 
     pub(crate) fn new(status: StateStatus, state: Option<AxisState>) -> Self {
-        let status = match status {
-            StateStatus::NotMeasured => FSB_STATE_NOT_MEASURED,
-            StateStatus::Settling => FSB_STATE_SETTLING,
-            StateStatus::NoParameter => FSB_STATE_NO_PARAMETER,
-            StateStatus::Nominal => FSB_STATE_NOMINAL,
-            StateStatus::Identified => FSB_STATE_IDENTIFIED,
-            StateStatus::Held => FSB_STATE_HELD,
-            _ => FSB_STATE_UNKNOWN,
-        };
+        let status = state_code(status);
         match state {
             Some(state) => Self { position: state.position, velocity: state.velocity, status },
             None => Self { status, ..Self::INVALID },
@@ -154,26 +148,45 @@ impl fsb_state_t {
     }
 }
 
+/// The code of a state's status.
+pub(crate) fn state_code(status: StateStatus) -> fsb_state_status_t {
+    match status {
+        StateStatus::NotMeasured => FSB_STATE_NOT_MEASURED,
+        StateStatus::Settling => FSB_STATE_SETTLING,
+        StateStatus::NoParameter => FSB_STATE_NO_PARAMETER,
+        StateStatus::Stale => FSB_STATE_STALE,
+        StateStatus::Nominal => FSB_STATE_NOMINAL,
+        StateStatus::Identified => FSB_STATE_IDENTIFIED,
+        StateStatus::Held => FSB_STATE_HELD,
+        _ => FSB_STATE_UNKNOWN,
+    }
+}
+
 impl fsb_parameter_t {
     pub(crate) const INVALID: Self = Self { k: f32::NAN, variance: f32::NAN, status: FSB_PARAMETER_UNKNOWN };
 
     pub(crate) fn new(status: ParameterStatus, parameter: Option<Parameter>) -> Self {
-        let status = match status {
-            ParameterStatus::Settling => FSB_PARAMETER_SETTLING,
-            ParameterStatus::Unexcited => FSB_PARAMETER_UNEXCITED,
-            ParameterStatus::Uncertain => FSB_PARAMETER_UNCERTAIN,
-            ParameterStatus::BelowRange => FSB_PARAMETER_BELOW,
-            ParameterStatus::AboveRange => FSB_PARAMETER_ABOVE,
-            ParameterStatus::Contradicted => FSB_PARAMETER_CONTRADICTED,
-            ParameterStatus::Faulted => FSB_PARAMETER_FAULTED,
-            ParameterStatus::Valid => FSB_PARAMETER_VALID,
-            ParameterStatus::Held => FSB_PARAMETER_HELD,
-            _ => FSB_PARAMETER_UNKNOWN,
-        };
+        let status = parameter_code(status);
         match parameter {
             Some(Parameter { value: k, variance }) => Self { k, variance, status },
             None => Self { status, ..Self::INVALID },
         }
+    }
+}
+
+/// The code of a parameter's status.
+pub(crate) fn parameter_code(status: ParameterStatus) -> fsb_parameter_status_t {
+    match status {
+        ParameterStatus::Settling => FSB_PARAMETER_SETTLING,
+        ParameterStatus::Unexcited => FSB_PARAMETER_UNEXCITED,
+        ParameterStatus::Uncertain => FSB_PARAMETER_UNCERTAIN,
+        ParameterStatus::BelowRange => FSB_PARAMETER_BELOW,
+        ParameterStatus::AboveRange => FSB_PARAMETER_ABOVE,
+        ParameterStatus::Contradicted => FSB_PARAMETER_CONTRADICTED,
+        ParameterStatus::Faulted => FSB_PARAMETER_FAULTED,
+        ParameterStatus::Valid => FSB_PARAMETER_VALID,
+        ParameterStatus::Held => FSB_PARAMETER_HELD,
+        _ => FSB_PARAMETER_UNKNOWN,
     }
 }
 
@@ -248,6 +261,7 @@ pub extern "C" fn fsb_state_status_name(status: fsb_state_status_t) -> *const c_
         FSB_STATE_NOT_MEASURED => c"FSB_STATE_NOT_MEASURED",
         FSB_STATE_SETTLING => c"FSB_STATE_SETTLING",
         FSB_STATE_NO_PARAMETER => c"FSB_STATE_NO_PARAMETER",
+        FSB_STATE_STALE => c"FSB_STATE_STALE",
         FSB_STATE_NOMINAL => c"FSB_STATE_NOMINAL",
         FSB_STATE_IDENTIFIED => c"FSB_STATE_IDENTIFIED",
         FSB_STATE_HELD => c"FSB_STATE_HELD",

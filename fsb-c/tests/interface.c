@@ -26,7 +26,8 @@ typedef union {
   fsb_translation_t translation;
   fsb_rotation_t rotation;
   fsb_tracking_t tracking;
-  unsigned char bytes[FSB_ROTATION_SIZE + 8];
+  fsb_vehicle_t vehicle;
+  unsigned char bytes[FSB_VEHICLE_SIZE + 8];
 } storage;
 
 static storage object;
@@ -231,6 +232,8 @@ static void tracking(void) {
   CHECK(fsb_to_body(quarter, numbers, NULL) == FSB_NULL_POINTER);
 }
 
+#include "vehicle.h"
+
 static void reports_and_names(void) {
   const fsb_parameter_t good = {2.0f, 0.0625f, FSB_PARAMETER_VALID};
   const fsb_parameter_t bad = {2.0f, 0.0625f, FSB_PARAMETER_UNCERTAIN};
@@ -249,6 +252,7 @@ static void reports_and_names(void) {
     for (fsb_status_t other = 0; other < status; other++)
       CHECK(strcmp(fsb_status_name(status), fsb_status_name(other)) || !strcmp(fsb_status_name(status), "FSB_UNKNOWN"));
   CHECK(!strcmp(fsb_state_status_name(FSB_STATE_NOMINAL), "FSB_STATE_NOMINAL"));
+  CHECK(!strcmp(fsb_state_status_name(FSB_STATE_STALE), "FSB_STATE_STALE"));
   CHECK(!strcmp(fsb_state_status_name(77), "FSB_STATE_UNKNOWN"));
   CHECK(!strcmp(fsb_parameter_status_name(FSB_PARAMETER_BELOW), "FSB_PARAMETER_BELOW"));
   CHECK(!strcmp(fsb_parameter_status_name(FSB_PARAMETER_HELD), "FSB_PARAMETER_HELD"));
@@ -264,6 +268,8 @@ int main(void) {
   configurations();
   kinds_are_told_apart();
   tracking();
+  vehicle_configurations();
+  vehicle();
   reports_and_names();
   printf("%d checks, %d failed\n", checks, failures);
   return failures == 0 ? 0 : 1;

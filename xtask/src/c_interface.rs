@@ -19,6 +19,9 @@ use anyhow::{Result, bail};
 use crate::command;
 use build::{Build, Machine};
 
+/// Flies on what the whole vehicle's estimator says.
+const VEHICLE: &str = "fsb-c/examples/vehicle.c";
+
 /// Whether `--write` was given: then the header is written before it is checked.
 fn writing() -> bool {
     std::env::args().any(|argument| argument == "--write")
@@ -51,6 +54,13 @@ pub fn run() -> Result<()> {
     }
     print!("{flight}");
     println!("the same, to the last bit: fly.rs and fly.c on the host, fly.c on the target");
+
+    let here = build.program(Machine::Host, "vehicle", VEHICLE, &here)?;
+    let there = build.program(Machine::Target, "vehicle.elf", VEHICLE, &there)?;
+    let flight = build.run(Machine::Host, &here)?;
+    same("vehicle.c on the target", &flight, &build.run(Machine::Target, &there)?)?;
+    print!("{flight}");
+    println!("the same, to the last bit: vehicle.c on the host and on the target");
 
     let image = panics::run(&build, &header::functions(&root)?)?;
     same("interface.c on the target", &checks, &build.run(Machine::Target, &image)?)?;

@@ -65,6 +65,7 @@ impl Hash {
             ParameterStatus::AboveRange => 5,
             ParameterStatus::Contradicted => 6,
             ParameterStatus::Held => 7,
+            ParameterStatus::Faulted => 8,
             _ => u32::MAX,
         });
     }

@@ -12,8 +12,9 @@ use crate::command::{self, root};
 const README: &str = "fsb-c/README.md";
 const GUIDE: &str = "docs/flight-controllers.md";
 
-/// A flight controller of the guide: name, compiler, language of the block, standard it is built with.
+/// A program of the guide: name, compiler, language of the block, standard it is built with.
 const CONTROLLERS: &[(&str, &str, &str, &str)] = &[
+    ("vehicle", "gcc", "c", "-std=c99"),
     ("px4", "g++", "cpp", "-std=c++14"),
     ("ardupilot", "g++", "cpp", "-std=c++11"),
     ("crazyflie", "gcc", "c", "-std=c11"),
