@@ -104,8 +104,8 @@ fn outliers_from_the_first_sample_on() {
 #[test]
 fn a_state_that_is_seeded_is_no_jump() {
     for seed in 1..=30 {
-        for noise in [1e-3, 1e-2] {
-            let case = Case { noise, dropout: 0.0, outliers: 0.0, jitter: 0.0, step: -0.3 };
+        for (noise, dropout) in [(1e-3, 0.0), (1e-2, 0.0), (1e-3, 0.3)] {
+            let case = Case { noise, dropout, outliers: 0.0, jitter: 0.0, step: -0.3 };
             let row = sweep::fly(&case, seed).unwrap();
             assert_eq!(row.rejected, 0, "seed {seed}: {row:?}");
         }
