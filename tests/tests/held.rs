@@ -49,7 +49,8 @@ fn k(estimator: &Estimator<1, 1>) -> Option<f64> {
 /// The load changes and the estimator is told to begin anew, in one of three ways: hold, restart, or forget.
 #[test]
 fn a_parameter_stands_in() {
-    let ways: [(fn(&mut Estimator<1, 1>), bool, bool); 3] = [
+    type Way = fn(&mut Estimator<1, 1>);
+    let ways: [(Way, bool, bool); 3] = [
         (Estimator::reinitialise_identifier, true, true),
         (Estimator::restart, true, false),
         (Estimator::reset_identifier, false, true),
@@ -74,7 +75,7 @@ fn a_parameter_stands_in() {
                     assert!(state == StateStatus::Held || stood_in < 2, "{state:?}");
                     stood_in += 1;
                 }
-                ParameterStatus::Valid => assert!(k(&estimator).is_some_and(|k| (k / 1.0 - 1.0).abs() < 0.05)),
+                ParameterStatus::Valid => assert!(k(&estimator).is_some_and(|k| (k - 1.0).abs() < 0.05)),
                 status => assert!(!held && k(&estimator).is_none(), "{status:?}"),
             }
         }
