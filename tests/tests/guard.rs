@@ -235,6 +235,48 @@ fn a_frozen_sensor_is_noticed() {
     }
 }
 
+/// Noise that is known beforehand is known from the first judgement on: an outlier at the ninth measurement is one, and what
+/// such noise does passes. Nobody can tell where it is not known.
+#[test]
+fn noise_known_beforehand() {
+    for (noise_sd, expected) in [(Some(0.02), Verdict::Improbable), (None, Verdict::Taken)] {
+        for seed in 1..20 {
+            let mut flight = Flight::new(seed, 0.02);
+            let known = EstimatorConfig { noise_sd, ..config() };
+            let mut guarded = Guarded::<1, 1>::new(&known, &GuardConfig::default()).unwrap();
+            for n in 0..30 {
+                let (y, force) = flight.next();
+                let outlier = n == 8;
+                let verdict = guarded.measure(&[Some(if outlier { y + 3.0 } else { y })]).unwrap()[0];
+                assert_eq!(verdict, if outlier { expected } else { Verdict::Taken }, "seed {seed}, {n}");
+                guarded.apply(&[force]);
+            }
+        }
+    }
+}
+
+/// After a gap that was too long the observer starts anew; the noise that was learned before is still known.
+#[test]
+fn noise_learned_before_a_gap() {
+    for seed in 1..20 {
+        let mut flight = Flight::new(seed, 0.02);
+        let mut guarded = Guarded::<1, 1>::new(&config(), &GuardConfig::default()).unwrap();
+        for n in 0..1000 {
+            let (y, force) = flight.next();
+            let (silent, outlier) = ((500..800).contains(&n), n == 809);
+            let given = if outlier { y + 3.0 } else { y };
+            let verdict = guarded.measure(&[(!silent).then_some(given)]).unwrap()[0];
+            let expected = match n {
+                500..800 => Verdict::Missing,
+                809 => Verdict::Improbable,
+                _ => Verdict::Taken,
+            };
+            assert_eq!(verdict, expected, "seed {seed}, {n}");
+            guarded.apply(&[force]);
+        }
+    }
+}
+
 #[test]
 fn wrong_settings_are_named() {
     let refused = |change: fn(&mut GuardConfig)| {

@@ -2,6 +2,7 @@
 
 mod core;
 mod data;
+mod promises;
 mod text;
 
 use std::fs;
@@ -37,6 +38,7 @@ pub fn run() -> Result<()> {
         complaints.extend(core::check(file));
     }
     complaints.extend(core::check_root(&files));
+    complaints.extend(promises::check(&files));
     complaints.extend(data::check(&files, std::env::var_os("FSB_FLIGHT_DATA").as_deref().map(Path::new))?);
     for complaint in &complaints {
         println!("{complaint}");

@@ -7,6 +7,7 @@ mod hygiene;
 mod licences;
 mod lints;
 mod metadata;
+mod miri;
 mod numbers;
 mod on_target;
 mod setup;

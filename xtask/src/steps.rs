@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 
 use crate::on_target::{cost, disassembly, examples, firmware, panics, parity, size};
-use crate::{c_interface, fuzz, hygiene, licences, lints, numbers, setup, suite, target};
+use crate::{c_interface, fuzz, hygiene, licences, lints, miri, numbers, setup, suite, target};
 
 /// One step of the gate.
 #[derive(Debug)]
@@ -16,6 +16,44 @@ pub struct Step {
     /// One line for `--help`.
     pub about: &'static str,
     run: fn() -> Result<()>,
+}
+
+/// Why a step could not be done on this machine. That is no failure, and it is said.
+#[derive(Debug)]
+pub struct Skipped(pub &'static str);
+
+impl std::fmt::Display for Skipped {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(self.0)
+    }
+}
+
+impl std::error::Error for Skipped {}
+
+/// How a step ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    Passed,
+    Failed,
+    Skipped,
+}
+
+impl Outcome {
+    fn of(result: &Result<()>) -> Self {
+        match result {
+            Ok(()) => Self::Passed,
+            Err(error) if error.is::<Skipped>() => Self::Skipped,
+            Err(_) => Self::Failed,
+        }
+    }
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Passed => "ok",
+            Self::Failed => "FAILED",
+            Self::Skipped => "skipped",
+        }
+    }
 }
 
 /// In the order of the gate: quick ones first, the tests last, so that their result lines stand above the summary.
@@ -43,12 +81,13 @@ pub const STEPS: &[Step] = &[
         run: c_interface::run,
     },
     Step { name: "fuzz", about: "any calls and any bytes, from the committed corpus on", run: fuzz::run },
+    Step { name: "miri", about: "the core's tests and the C interface's pointers under Miri", run: miri::run_tests },
     Step { name: "doc", about: "documentation, warnings denied", run: lints::doc },
     Step { name: "numbers", about: "the numbers and links in the documentation", run: numbers::run },
     Step { name: "suite", about: "cargo test on the whole workspace", run: suite::run },
 ];
 
-/// Runs the steps one after the other, the rest too when one fails (except without `setup`); true if all passed.
+/// Runs the steps one after the other, the rest too when one fails (except without `setup`); true if none failed.
 pub fn run(steps: &[&Step]) -> bool {
     let start = Instant::now();
     let mut summary = Vec::new();
@@ -57,23 +96,25 @@ pub fn run(steps: &[&Step]) -> bool {
         let begin = Instant::now();
         let outcome = (step.run)();
         let time = begin.elapsed();
+        let ended = Outcome::of(&outcome);
         if let Err(error) = &outcome {
-            println!("=== {} FAILED: {error:#}", step.name);
+            println!("=== {} {}: {error:#}", step.name, ended.name());
         }
         println!("=== {} took {}", step.name, seconds(time));
         flush();
-        summary.push((step.name, time, outcome.is_ok()));
-        if outcome.is_err() && step.name == "setup" {
+        summary.push((step.name, time, ended));
+        if ended == Outcome::Failed && step.name == "setup" {
             break;
         }
     }
 
     println!("\n{:<12} {:<7} {:>8}", "step", "result", "time");
-    for (name, time, passed) in &summary {
-        println!("{name:<12} {:<7} {:>8}", if *passed { "ok" } else { "FAILED" }, seconds(*time));
+    for (name, time, ended) in &summary {
+        println!("{name:<12} {:<7} {:>8}", ended.name(), seconds(*time));
     }
     println!("{:<12} {:<7} {:>8}", "total", "", seconds(start.elapsed()));
-    let failed: Vec<_> = summary.iter().filter(|(_, _, passed)| !passed).map(|(name, ..)| *name).collect();
+    let failed: Vec<_> =
+        summary.iter().filter(|(.., ended)| *ended == Outcome::Failed).map(|(name, ..)| *name).collect();
     for name in &failed {
         println!("failed: {name}; alone: cargo xtask {name}");
     }
@@ -99,6 +140,7 @@ mod tests {
     use anyhow::bail;
 
     static GOOD: Step = Step { name: "good", about: "", run: || Ok(()) };
+    static SKIPPED: Step = Step { name: "skipped", about: "", run: || Err(Skipped("as it may be").into()) };
     static BAD: Step = Step { name: "bad", about: "", run: || bail!("as it should") };
 
     #[test]
@@ -106,6 +148,8 @@ mod tests {
         assert!(run(&[&GOOD, &GOOD]));
         assert!(!run(&[&BAD, &GOOD]));
         assert!(!run(&[&GOOD, &BAD]));
+        assert!(run(&[&SKIPPED, &GOOD]));
+        assert!(!run(&[&SKIPPED, &BAD]));
     }
 
     #[test]

@@ -47,7 +47,7 @@ struct JsonBad {
 struct JsonRecovery {
     used: bool,
     velocity: f64,
-    k: f64,
+    k: Option<f64>,
     ticks: Option<u32>,
 }
 
@@ -192,7 +192,8 @@ fn bad_table(title: &str, rows: &[BadValue]) -> Table {
         let mut cells = vec![Cell::text(&recovery::name(row.value))];
         for of in [&row.guarded, &row.bare] {
             cells.push(Cell::text(if of.used { "yes" } else { "no" }));
-            cells.extend([Cell::significant(of.velocity, 2), Cell::significant(of.k, 2)]);
+            cells.push(Cell::significant(of.velocity, 2));
+            cells.push(of.k.map_or(Cell::text("withdrawn"), |k| Cell::significant(k, 2)));
             cells.push(of.ticks.map_or(Cell::text("not in 20 s"), |ticks| Cell::count(ticks.into())));
         }
         table.push(cells);

@@ -18,8 +18,8 @@ use super::{Failure, positive, print_json, print_text};
 /// estimator holds is subnormal or not finite, or a signal is not bounded.
 ///
 /// With --faults the estimator stands behind the gate, and what it is given is dropped, not a number, off by metres, has bits
-/// flipped, is frozen, jitters and is rounded, while the twin is given the samples as they were: k within 1e-4 of the
-/// twin's, position and velocity within 0.1 m and 0.5 m/s of the truth, no sensor blamed for a jump.
+/// flipped, is frozen, jitters and is rounded, while the twin is given the samples as they were: k within 5e-5 of the
+/// twin's, position and velocity within 5 cm and 0.2 m/s of the truth, no sensor blamed for a jump.
 #[derive(Debug, Parser)]
 #[command(allow_negative_numbers = true)]
 pub struct Args {

@@ -75,8 +75,8 @@ pub struct Recovery {
     pub used: bool,
     /// The worst deviation of v̂ [m/s].
     pub velocity: f64,
-    /// The worst relative deviation of k̂.
-    pub k: f64,
+    /// The worst relative deviation of k̂; `None` where it was withdrawn.
+    pub k: Option<f64>,
     /// Ticks from the bad value on after which the velocity's error is never again larger than 1.1 times the largest of the
     /// flight without it; `None` where that is not so within 20 s, or nothing is handed out at the end.
     pub ticks: Option<u32>,
@@ -128,7 +128,7 @@ pub fn one(place: Place, value: f32, kind: Kind, position_limit: f64, seed: u64)
     let mut hit = Subject::new(kind, &config, &GuardConfig::default())?;
     let mut spared = hit.clone();
     let mut flight = Flight::new(PERIOD, NOISE, seed);
-    let mut found = Recovery { used: false, velocity: 0.0, k: 0.0, ticks: None };
+    let mut found = Recovery { used: false, velocity: 0.0, k: Some(0.0), ticks: None };
     let mut usual = 0.0_f64;
     let mut errors = Vec::new();
     for n in 0..TICKS {
@@ -147,7 +147,8 @@ pub fn one(place: Place, value: f32, kind: Kind, position_limit: f64, seed: u64)
                 errors.push(error(&hit));
                 let velocities = hit.velocity().zip(spared.velocity());
                 found.velocity = velocities.map_or(found.velocity, |(a, b)| found.velocity.max((a - b).abs()));
-                found.k = hit.k().zip(spared.k()).map_or(found.k, |(a, b)| found.k.max((a / b - 1.0).abs()));
+                let off = hit.k().zip(spared.k()).map(|(a, b)| (a / b - 1.0).abs());
+                found.k = found.k.zip(off).map(|(worst, off)| worst.max(off));
             }
         }
         spared.apply(tick.force);

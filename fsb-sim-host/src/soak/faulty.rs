@@ -41,12 +41,11 @@ pub const FORCE_FAULTS: FaultConfig = FaultConfig {
 const FROZEN_AFTER: u32 = 8;
 
 /// The largest difference of k, from a minute on, to the twin without faults, over k.
-pub const K_LIMIT: f64 = 1e-4;
-/// The largest error of a position [m] against the truth: 5 standard deviations of the noise, and what a frozen sensor or a
-/// spike within the gate adds.
-pub const POSITION_LIMIT: f64 = 0.1;
+pub const K_LIMIT: f64 = 5e-5;
+/// The largest error of a position [m] against the truth, noise of 1 cm, frozen sensors and spikes within the gate included.
+pub const POSITION_LIMIT: f64 = 0.05;
 /// The largest error of a velocity [m/s] against the truth.
-pub const VELOCITY_LIMIT: f64 = 0.5;
+pub const VELOCITY_LIMIT: f64 = 0.2;
 
 /// k counts from here on [s].
 const K_FROM: f64 = 60.0;

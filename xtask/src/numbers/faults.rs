@@ -29,7 +29,8 @@ pub fn recovery(values: &Value) -> Result<String> {
 fn outcome(of: &Value) -> Result<String> {
     let used = if of["used"].as_bool().context("used or not?")? { "yes" } else { "no" };
     let ticks = of["ticks"].as_u64().map_or(String::from("not in 2000"), |ticks| ticks.to_string());
-    Ok(format!("{used} | {:.1e} | {:.1e} | {ticks}", number(&of["velocity"])?, number(&of["k"])?))
+    let k = of["k"].as_f64().map_or(String::from("withdrawn"), |k| format!("{k:.1e}"));
+    Ok(format!("{used} | {:.1e} | {k} | {ticks}", number(&of["velocity"])?))
 }
 
 /// A second of each kind of fault.
