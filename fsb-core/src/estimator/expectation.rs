@@ -69,6 +69,11 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         self.frame.common.position_limit
     }
 
+    /// The limit of an input's magnitude.
+    pub(crate) const fn input_limit(&self) -> f32 {
+        self.frame.common.input_limit
+    }
+
     /// The variance of an innovation's step for measurement noise of the variance `noise`.
     pub(crate) fn innovation_step_variance(&self, noise: f32) -> f32 {
         noise / (self.frame.common.innovation_to_mean * self.frame.common.block_length as f32)

@@ -5,7 +5,7 @@ use super::advance::LONG_AGO;
 use super::axis::{Axis, Source};
 use super::output::{Counters, Learning};
 use super::shared::Progress;
-use crate::snapshot::{Archive, Stored, stored};
+use crate::snapshot::{Archive, Fingerprint, Stored, Whole, snapshots, stored};
 
 stored!(Counters { missed, rejected_measurements, rejected_inputs });
 stored!(Progress { observer, identifier, substep, started, all_measured, steady, learning, counters });
@@ -67,8 +67,14 @@ impl<const N: usize, const P: usize> Stored for Estimator<N, P> {
 }
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
+    snapshots!();
+}
+
+impl<const N: usize, const P: usize> Whole for Estimator<N, P> {
+    const SHAPE: [u8; 3] = [0, N as u8, P as u8];
+
     /// Whether the state is one that this design can have come to.
-    pub(crate) fn is_sound(&self) -> bool {
+    fn is_sound(&self) -> bool {
         let common = &self.frame.common;
         let progress = &self.frame.progress;
         let round = if common.block_length == 1 { 8 } else { common.block_length };
@@ -92,9 +98,9 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     }
 
     /// Tells configurations apart: of two that differ in what a state depends on, all but one in 2^32 differ in this.
-    pub(crate) fn fingerprint(&self) -> u32 {
+    fn fingerprint(&self) -> u32 {
         let common = &self.frame.common;
-        let mut hash = Fingerprint(0x811c_9dc5);
+        let mut hash = Fingerprint::new();
         for word in [common.substeps, common.block_length, common.schedule.turn, common.parameter_settle] {
             hash.add(word);
         }
@@ -118,17 +124,6 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         for parameter in &self.parameters {
             hash.add(parameter.nominal.unwrap_or(0.0).to_bits());
         }
-        hash.0
-    }
-}
-
-/// FNV-1a over words.
-struct Fingerprint(u32);
-
-impl Fingerprint {
-    fn add(&mut self, word: u32) {
-        for byte in word.to_le_bytes() {
-            self.0 = (self.0 ^ u32::from(byte)).wrapping_mul(0x0100_0193);
-        }
+        hash.value()
     }
 }

@@ -7,21 +7,21 @@ use super::verdict::Verdict;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Gate {
     /// V: the mean square of the innovation's step, as far as [`Gate::learn`] lets single values count.
-    level: f32,
+    pub(super) level: f32,
     /// Values in it; saturates.
-    values: u16,
+    pub(super) values: u16,
     /// Measurements not used since the last one that was.
-    gap: u16,
+    pub(super) gap: u16,
     /// Improbable measurements in a row that agree with each other.
-    run: u16,
+    pub(super) run: u16,
     /// How often the last measurement has come again.
-    repeated: u16,
+    pub(super) repeated: u16,
     /// The observer's innovation after the last measurement that was used.
-    innovation: f32,
+    pub(super) innovation: f32,
     /// That of the last improbable one.
-    candidate: f32,
+    pub(super) candidate: f32,
     /// The bits of the last measurement, used or not; they may be those of a subnormal number.
-    last: u32,
+    pub(super) last: u32,
 }
 
 impl Gate {
@@ -126,6 +126,11 @@ impl Gate {
     /// The observer starts anew: what was learned of the noise stays, and so does the age of the last measurement.
     pub fn restart(&mut self) {
         *self = Self { level: self.level, values: self.values, gap: self.gap, ..Self::default() };
+    }
+
+    /// Whether its level can have been learned.
+    pub fn is_sound(&self) -> bool {
+        self.level >= 0.0
     }
 
     /// Nothing was measured.

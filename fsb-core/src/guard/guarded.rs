@@ -14,19 +14,19 @@ use core::ops::Deref;
 /// Non-finite policy: rejected and counted, see [`Verdict`]. Cost of the gate: about 35 operations an axis and measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct Guarded<const N: usize, const P: usize> {
-    estimator: Estimator<N, P>,
-    design: GuardDesign,
-    expecting: Gate,
-    gates: [Gate; N],
-    verdicts: [Verdict; N],
-    rejections: Rejections,
+    pub(super) estimator: Estimator<N, P>,
+    pub(super) design: GuardDesign,
+    pub(super) expecting: Gate,
+    pub(super) gates: [Gate; N],
+    pub(super) verdicts: [Verdict; N],
+    pub(super) rejections: Rejections,
     /// Some axis has been stale since the identification began.
-    interrupted: bool,
+    pub(super) interrupted: bool,
     /// Measurement instants since the start; saturates.
-    instants: u8,
+    pub(super) instants: u8,
     /// The last input, for periods that were missed.
-    last: [InputMoments; N],
-    measurement_period: f32,
+    pub(super) last: [InputMoments; N],
+    pub(super) measurement_period: f32,
 }
 
 impl<const N: usize, const P: usize> Guarded<N, P> {

@@ -22,11 +22,13 @@
 //! | `config` | plain data, and the same validated |
 //! | `gate` | one axis: its noise level, and whether a measurement can be true |
 //! | `guarded` | an estimator behind the gates |
+//! | `stored` | what a snapshot holds |
 //! | `verdict` | what became of a measurement |
 
 mod config;
 mod gate;
 mod guarded;
+mod stored;
 mod verdict;
 
 pub use config::{GuardConfig, GuardDesign};

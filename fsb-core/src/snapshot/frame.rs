@@ -9,8 +9,8 @@ const VERSION: u8 = 1;
 /// What a snapshot must be of.
 #[derive(Clone, Copy)]
 pub(super) struct Identity {
-    pub axes: u8,
-    pub parameters: u8,
+    /// Kind of estimator, axes, parameters.
+    pub shape: [u8; 3],
     pub length: u32,
     pub fingerprint: u32,
 }
@@ -18,7 +18,8 @@ pub(super) struct Identity {
 impl Identity {
     fn header(self) -> [u8; HEADER] {
         let ([a, b, c, d], [e, f, g, h]) = (self.length.to_le_bytes(), self.fingerprint.to_le_bytes());
-        [b'F', b'S', b'B', VERSION, self.axes, self.parameters, 0, 0, a, b, c, d, e, f, g, h]
+        let [kind, axes, parameters] = self.shape;
+        [b'F', b'S', b'B', VERSION, kind, axes, parameters, 0, a, b, c, d, e, f, g, h]
     }
 
     /// Writes header and checksum around the state in `bytes`, whose length is right.

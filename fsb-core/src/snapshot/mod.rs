@@ -1,7 +1,7 @@
 //! The whole state of an estimator as plain bytes, and back: to log and replay, to start warm.
 //!
 //! ```text
-//! "FSB" | version | N | P | 0 | 0 | length of the state (u32) | fingerprint of the design (u32) | state | CRC-32 of all before
+//! "FSB" | version | kind | N | P | 0 | length of the state (u32) | fingerprint of the design (u32) | state | CRC-32 of all before
 //! ```
 //!
 //! All numbers little-endian. A snapshot fits only an estimator of the same shape and the same configuration; every field is
@@ -13,14 +13,15 @@
 //! | `archive` | writing and reading the fields of a state in their order |
 //! | `frame` | header and checksum |
 //! | `fields` | which fields each state has |
-//! | `estimator` | `snapshot` and `restore`, and what a state must obey |
+//! | `whole` | `snapshot` and `restore` |
 
 mod archive;
-mod estimator;
 mod fields;
 mod frame;
+pub(crate) mod whole;
 
 pub(crate) use archive::{Archive, Stored, stored};
+pub(crate) use whole::{Fingerprint, Whole, snapshots};
 
 use core::fmt;
 
