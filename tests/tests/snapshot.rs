@@ -1,5 +1,6 @@
 //! Snapshots: what is restored goes on to the last bit; what is no snapshot of this estimator is refused.
 
+use fsb_core::guard::{GuardConfig, Guarded};
 use fsb_core::snapshot::SnapshotError;
 use fsb_core::{Estimator, EstimatorConfig};
 use fsb_sim_host::plant::{Motion, Recording, RecordingConfig, record};
@@ -53,6 +54,53 @@ fn what_is_restored_goes_on_to_the_last_bit() {
             assert_eq!(original.parameters(), restored.parameters());
             assert_eq!(original.states(), restored.states());
         }
+    }
+}
+
+/// The gates' memory too: a sensor that was about to be called frozen, or to have jumped, still is.
+#[test]
+fn what_is_restored_behind_the_gate_goes_on_to_the_last_bit() {
+    let flight = flight();
+    let guard = GuardConfig { frozen_after: 20, ..GuardConfig::default() };
+    let taken = |guarded: &Guarded<2, 2>| {
+        let mut bytes = vec![0; guarded.snapshot_length()];
+        assert_eq!(guarded.snapshot(&mut bytes), Ok(bytes.len()));
+        bytes
+    };
+    let tick = |guarded: &mut Guarded<2, 2>, n: usize| {
+        let (y, f) = (flight.positions[n] as f32, flight.forces[n] as f32);
+        let first = match n {
+            1000..1030 => flight.positions[1000] as f32,
+            2000.. => y + 7.0,
+            _ if n % 50 == 49 => y + 3.0,
+            _ => y,
+        };
+        let verdicts = guarded.measure(&[Some(first), (n % 7 != 3 || n == 0).then_some(-y)]).unwrap();
+        guarded.apply(&[f, -f]);
+        verdicts
+    };
+    for moment in [0, 1, 500, 1015, 1029, 2003, 2009, 2500] {
+        let mut original = Guarded::new(&config(4), &guard).unwrap();
+        for n in 0..moment {
+            tick(&mut original, n);
+        }
+        let mut restored = Guarded::new(&config(4), &guard).unwrap();
+        for n in 0..777 {
+            tick(&mut restored, n);
+        }
+        restored.restore(&taken(&original)).unwrap();
+        for n in moment..moment + 1500 {
+            assert_eq!(taken(&original), taken(&restored), "{moment}, {n}");
+            assert_eq!(tick(&mut original, n), tick(&mut restored, n), "{moment}, {n}");
+        }
+        assert_eq!(original.rejections(), restored.rejections());
+        assert_eq!(original.parameters(), restored.parameters());
+        // The bare estimator's is another kind, and another gate another configuration.
+        let mut bare = Estimator::new(&config(4)).unwrap();
+        assert_eq!(bare.restore(&taken(&original)), Err(SnapshotError::Shape));
+        let other = GuardConfig { jump_after: 11, ..guard };
+        let mut other = Guarded::<2, 2>::new(&config(4), &other).unwrap();
+        assert_eq!(other.restore(&taken(&original)), Err(SnapshotError::Design));
     }
 }
 
