@@ -6,9 +6,16 @@ use anyhow::{Context, Result, bail};
 use crate::command::{self, output, run_with};
 use crate::setup;
 
-/// A target and its executions in the gate.
-const TARGETS: &[(&str, u64)] =
-    &[("estimator", 100_000), ("snapshot", 100_000), ("c_interface", 200_000), ("axis_log", 20_000)];
+/// A target, its executions in the gate, and the longest input (bytes).
+const TARGETS: &[(&str, u64, u32)] = &[
+    ("estimator", 100_000, 512),
+    ("snapshot", 100_000, 512),
+    ("c_interface", 200_000, 512),
+    ("vehicle", 20_000, 512),
+    ("axis_log", 20_000, 512),
+    ("ulog", 10_000, 8192),
+    ("scenario", 10_000, 2048),
+];
 
 /// Counters at every edge and comparisons traced: what libFuzzer steers by. All of it is stable.
 const INSTRUMENTED: &str = "-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
@@ -27,9 +34,9 @@ pub fn run() -> Result<()> {
         Err(_) => None,
     };
     let mut total = 0;
-    for (target, default) in TARGETS {
+    for (target, default, longest) in TARGETS {
         let runs = asked.unwrap_or(*default);
-        fuzz(target, &host, runs)?;
+        fuzz(target, &host, runs, *longest)?;
         total += runs;
     }
     println!("{total} executions without a finding");
@@ -37,7 +44,7 @@ pub fn run() -> Result<()> {
 }
 
 /// New inputs go to `fuzz/corpus-found`, which is not committed; a finding to `fuzz/artifacts`.
-fn fuzz(target: &str, host: &str, runs: u64) -> Result<()> {
+fn fuzz(target: &str, host: &str, runs: u64, longest: u32) -> Result<()> {
     let root = command::root()?;
     let found = format!("fuzz/corpus-found/{target}");
     let artifacts = format!("fuzz/artifacts/{target}");
@@ -46,8 +53,9 @@ fn fuzz(target: &str, host: &str, runs: u64) -> Result<()> {
     }
     let program = format!("target/fuzz/{host}/release/{target}");
     let (runs, prefix) = (format!("-runs={runs}"), format!("-artifact_prefix={artifacts}/"));
+    let longest = format!("-max_len={longest}");
     let corpus = format!("fuzz/corpus/{target}");
-    let arguments = [runs.as_str(), "-seed=1", "-max_len=512", "-verbosity=0", "-print_final_stats=1", &prefix];
+    let arguments = [runs.as_str(), "-seed=1", &longest, "-verbosity=0", "-print_final_stats=1", &prefix];
     if run_with(&program, &[&arguments[..], &[&found, &corpus]].concat(), &[]).is_err() {
         bail!("{target}: a finding, kept in {artifacts}; again: {program} {artifacts}/crash-...");
     }

@@ -1,7 +1,7 @@
 //! From a name or a file to a scenario, entries overridden by hand.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
@@ -37,9 +37,17 @@ pub fn list() -> Vec<(String, String)> {
 /// [`LoadError`], naming file and key.
 pub fn load(name: &str, overrides: &[String]) -> Result<Scenario, LoadError> {
     let (file, text) = text_of(name)?;
-    let wrong = |error: toml::de::Error| LoadError::Toml { file: file.clone(), message: error.to_string() };
+    parse(name, &file, &text, overrides)
+}
+
+/// The same of the `text` of a `file`.
+///
+/// # Errors
+/// As [`load`].
+pub fn parse(name: &str, file: &Path, text: &str, overrides: &[String]) -> Result<Scenario, LoadError> {
+    let wrong = |error: toml::de::Error| LoadError::Toml { file: file.into(), message: error.to_string() };
     // The file on its own first: its errors come with line and column.
-    let mut scenario: Scenario = toml::from_str(&text).map_err(wrong)?;
+    let mut scenario: Scenario = toml::from_str(text).map_err(wrong)?;
     for given in overrides {
         let wrong = |message: String| LoadError::Set { given: given.clone(), message };
         // With every default in it, so that an element of a list the file leaves out can be set too.

@@ -35,7 +35,7 @@ pub mod settings;
 pub mod small_angle;
 pub mod tables;
 
-pub use load::{list, load};
+pub use load::{list, load, parse};
 pub use many::{Flights, fly_many};
 pub use record::{Flight, Keep, record};
 pub use scenario::Scenario;

@@ -14,12 +14,14 @@ use fsb::status::*;
 use fsb::tracking::*;
 use fsb::translation::*;
 use fsb::values::*;
+use fsb::vehicle::values::*;
+use fsb::vehicle::*;
 
 /// Storage as a C caller has it, `byte` lying in it, with room to be misaligned in.
 struct Storage(*mut u8);
 
 impl Storage {
-    const LAYOUT: Layout = Layout::new::<[u64; 1024]>();
+    const LAYOUT: Layout = Layout::new::<[u64; 4096]>();
 
     fn filled(byte: u8) -> Self {
         // SAFETY: the size is not zero; so many bytes are there to be written.
@@ -179,5 +181,45 @@ fn arrays() {
         assert_eq!(fsb_to_body(identity.as_ptr(), [1.0, 2.0, 3.0].as_ptr(), body.as_mut_ptr()), FSB_OK);
         assert_eq!(body, [1.0, 2.0, 3.0]);
         assert_eq!(fsb_to_body(null(), [1.0, 2.0, 3.0].as_ptr(), body.as_mut_ptr()), FSB_NULL_POINTER);
+    }
+}
+
+/// The whole vehicle: its estimator with the ring of inputs that wait for late measurements, and what is handed out of it.
+#[test]
+fn a_vehicle() {
+    let storage = Storage::filled(0x3c);
+    let vehicle: *mut fsb_vehicle_t = storage.at(0);
+    let mut config = fsb_vehicle_config_default(0.02);
+    config.mass = fsb_expected_about(2.0);
+    config.inertia = [fsb_expected_about(0.02); 3];
+    config.translation.latency = 2;
+    let mut state = MaybeUninit::<fsb_vehicle_state_t>::uninit();
+    let mut inertia = [MaybeUninit::<fsb_identified_t>::uninit(); 3];
+    let (mut mass, mut events) = (MaybeUninit::<fsb_identified_t>::uninit(), 0);
+    // SAFETY: every pointer leads to a value of its type, or is NULL or misaligned.
+    unsafe {
+        assert_eq!(fsb_vehicle_reset(vehicle), FSB_NOT_INITIALISED);
+        assert_eq!(fsb_vehicle_init(vehicle, &config, null_mut()), FSB_OK);
+        assert_eq!(fsb_vehicle_update(vehicle, &fsb_measured_none(), null(), &mut events), FSB_NULL_POINTER);
+        for tick in 0..40 {
+            let mut measured = fsb_measured_none();
+            measured.position = [0.0, 0.0, 1.0];
+            measured.attitude_kind = FSB_ATTITUDE_QUATERNION;
+            measured.attitude[0] = 1.0;
+            let torque = [if tick < 20 { 0.0 } else { f32::NAN }; 3];
+            let wrench = fsb_wrench_t { force: [0.0, 0.0, 2.5 * 9.80665], torque };
+            assert_eq!(fsb_vehicle_update(vehicle, &measured, &wrench, &mut events), FSB_OK);
+            assert_eq!(events & FSB_EVENT_WRENCH_REJECTED != 0, tick >= 20);
+        }
+        assert_eq!(fsb_vehicle_mass(vehicle, mass.as_mut_ptr()), FSB_OK);
+        let mass = mass.assume_init();
+        assert!(mass.status == FSB_PARAMETER_VALID && (mass.value - 2.5).abs() < 1e-2, "{}", mass.value);
+        assert_eq!(fsb_vehicle_inertia(vehicle, inertia.as_mut_ptr().cast()), FSB_OK);
+        assert!(inertia.iter().all(|of| of.assume_init().value.is_nan()), "nothing turned");
+        assert_eq!(fsb_vehicle_state(vehicle, state.as_mut_ptr()), FSB_OK);
+        assert!((state.assume_init().position[2] - 1.0).abs() < 1e-4);
+        assert_eq!(fsb_vehicle_state(vehicle, null_mut()), FSB_NULL_POINTER);
+        assert_eq!(fsb_vehicle_missed(vehicle, 5), FSB_OK);
+        assert_eq!(fsb_vehicle_reset(storage.at(1)), FSB_MISALIGNED);
     }
 }
