@@ -5,5 +5,6 @@ pub mod drag_flight;
 pub mod flight;
 pub mod fly;
 pub mod rigid_body;
+pub mod seal;
 pub mod six_axes;
 pub mod words;

@@ -4,6 +4,7 @@ use fsb_core::guard::{GuardConfig, Guarded};
 use fsb_core::snapshot::SnapshotError;
 use fsb_core::{Estimator, EstimatorConfig};
 use fsb_sim_host::plant::{Motion, Recording, RecordingConfig, record};
+use fsb_tests::seal::sealed;
 use proptest::prelude::*;
 
 const PERIOD: f64 = 1e-3;
@@ -164,20 +165,6 @@ fn a_flipped_bit_is_found() {
         assert!(estimator.restore(&bytes).is_err(), "bit {bit}");
     }
     assert_eq!(taken(&estimator), good);
-}
-
-/// CRC-32, so that a state made up can be sealed.
-fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
-    let end = bytes.len() - 4;
-    let mut crc = u32::MAX;
-    for byte in &bytes[..end] {
-        crc ^= u32::from(*byte);
-        for _ in 0..8 {
-            crc = if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 };
-        }
-    }
-    bytes[end..].copy_from_slice(&(!crc).to_le_bytes());
-    bytes
 }
 
 proptest! {

@@ -9,6 +9,7 @@
 
 use super::rotation::{self, Matrix};
 use crate::accumulator::Accumulator;
+use crate::snapshot::stored;
 use core::fmt;
 
 /// An attitude was not taken.
@@ -114,6 +115,19 @@ impl BodyAngles {
     /// The angles at the last attitude taken, and the turns given since.
     pub fn angles(&self) -> [f32; 3] {
         self.angles.map(|angle| angle.value())
+    }
+}
+
+stored!(BodyAngles { attitude, angles });
+
+impl BodyAngles {
+    /// What a prediction over a gap may add to a measured attitude's tolerance.
+    const DRIFT: f32 = 0.01;
+
+    /// Of a state that was stored.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.attitude.iter().all(|attitude| is_rotation(attitude, Self::TOLERANCE + Self::DRIFT))
+            && self.angles.iter().all(|angle| angle.value().abs() <= 1e9)
     }
 }
 

@@ -84,6 +84,19 @@ impl<T: Stored, const N: usize> Stored for [T; N] {
     }
 }
 
+/// As many words whether there is one or not.
+impl<T: Stored + Default> Stored for Option<T> {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        let mut is_some = self.is_some();
+        is_some.pass(archive);
+        let mut value = self.take().unwrap_or_default();
+        value.pass(archive);
+        if is_some {
+            *self = Some(value);
+        }
+    }
+}
+
 /// Counts bytes.
 pub(super) struct Length(pub usize);
 

@@ -7,6 +7,8 @@
 //! All numbers little-endian. A snapshot fits only an estimator of the same shape and the same configuration; every field is
 //! checked before anything is taken, and an estimator that refuses a snapshot stays as it was. After
 //! [`restore`](crate::Estimator::restore) every later call gives the same bits as on the estimator it was taken from.
+//! [`Estimator`](crate::Estimator), [`Guarded`](crate::guard::Guarded) and
+//! [`VehicleEstimator`](crate::vehicle::VehicleEstimator) have them; both calls need stack for a copy of the state.
 //!
 //! | file | what |
 //! |---|---|

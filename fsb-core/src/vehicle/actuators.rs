@@ -52,6 +52,11 @@ impl Actuators {
         })
     }
 
+    /// e^(-dt/T_a): one for each lag.
+    pub const fn decay(&self) -> f32 {
+        self.decay
+    }
+
     /// The course over a period at whose start they did `now` (unknown: what they were told), and what they do at its end.
     pub fn follow(&self, told: &Wrench, now: Option<Wrench>) -> (Course, Wrench) {
         if !self.lags {

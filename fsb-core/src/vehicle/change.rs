@@ -18,6 +18,7 @@
 use super::config::ChangeRule;
 use crate::error::{ConfigError, finite, positive};
 use crate::estimator::InnovationView;
+use crate::snapshot::{Archive, Fingerprint, Stored, stored};
 
 /// φ and what it comes from, one axis.
 #[derive(Clone, Copy, Debug, Default)]
@@ -208,5 +209,47 @@ impl Statistic {
             longest = longest.max(*streak);
         }
         longest
+    }
+}
+
+stored!(Response { phi, e, w });
+stored!(Terms { product, square, variance });
+stored!(Statistic { sums, streaks });
+
+impl Stored for Detector {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        self.responses.pass(archive);
+        self.usual.pass(archive);
+        self.statistics.pass(archive);
+        self.instants.pass(archive);
+        self.measured.pass(archive);
+    }
+}
+
+impl Detector {
+    /// Responses to inputs: far below this. The square of it is a number.
+    const MOST: f32 = 1e15;
+
+    /// What tells detectors apart.
+    pub fn add_to(&self, hash: &mut Fingerprint) {
+        for number in [self.relative, self.sigmas2, self.period2, self.innovation_gain] {
+            hash.add_number(number);
+        }
+        for count in [self.hold_off, self.enough] {
+            hash.add(count);
+        }
+    }
+
+    /// Of a state that was stored: nothing in it can overflow, squares and variances are none below zero.
+    pub fn is_sound(&self) -> bool {
+        let largest = Self::MOST * Self::MOST;
+        let is_square = |x: f32| (0.0..=largest).contains(&x);
+        self.responses.iter().flat_map(|response| [response.phi, response.e, response.w]).all(|x| x.abs() <= Self::MOST)
+            && self.usual.iter().all(|&x| is_square(x))
+            && self
+                .statistics
+                .iter()
+                .flat_map(|statistic| &statistic.sums)
+                .all(|sum| sum.product.abs() <= largest && is_square(sum.square) && is_square(sum.variance))
     }
 }

@@ -1,5 +1,6 @@
 //! Inputs on their way to a measurement that comes late.
 
+use crate::snapshot::{Archive, Stored};
 use heapless::Deque;
 
 /// What goes in comes out `periods` calls later.
@@ -36,7 +37,32 @@ impl<T: Copy, const D: usize> Delay<T, D> {
         self.ring.iter()
     }
 
+    pub const fn periods(&self) -> usize {
+        self.periods
+    }
+
     pub fn clear(&mut self) {
         self.ring.clear();
+    }
+}
+
+/// As many words however many wait.
+impl<T: Copy + Default + Stored, const D: usize> Stored for Delay<T, D> {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        let mut count = self.ring.iter().len() as u32;
+        count.pass(archive);
+        if count as usize > self.periods {
+            archive.refuse();
+        }
+        let waiting = core::mem::take(&mut self.ring);
+        let mut waiting = waiting.iter();
+        for place in 0..self.periods {
+            let mut item = waiting.next().copied().unwrap_or_default();
+            item.pass(archive);
+            if place < count as usize {
+                // There is room for all periods.
+                let _ = self.ring.push_back(item);
+            }
+        }
     }
 }

@@ -50,18 +50,18 @@ pub struct VehicleEstimator<const D: usize> {
     pub(super) period: f32,
     /// The attitude was measured in the last update.
     pub(super) attitude_measured: bool,
-    position_limit: f32,
-    force_limit: f32,
-    torque_limit: f32,
-    last: Wrench,
+    pub(super) position_limit: f32,
+    pub(super) force_limit: f32,
+    pub(super) torque_limit: f32,
+    pub(super) last: Wrench,
     /// Attitudes in succession that were too far away to be followed, and how many make a start anew.
-    too_far: u32,
-    enough: u32,
+    pub(super) too_far: u32,
+    pub(super) enough: u32,
     /// Where the sums do not fade.
     pub(super) retroactive: Option<Retroactive>,
     pub(super) translation_change: Option<Detector>,
     pub(super) rotation_change: Option<Detector>,
-    begun: bool,
+    pub(super) begun: bool,
     pub(super) counters: VehicleCounters,
 }
 

@@ -41,6 +41,7 @@
 //! | `change` | whether a parameter has changed |
 //! | `reinitialise` | parameters identified anew |
 //! | `delay` | inputs waiting for a measurement that comes late |
+//! | `stored` | what a snapshot holds |
 //! | `triple` | three numbers, one for each axis of a group |
 
 mod actuators;
@@ -56,6 +57,7 @@ mod readings;
 mod reinitialise;
 mod retroactive;
 mod state;
+mod stored;
 mod triple;
 
 pub use config::{ChangeRule, Expected, GroupConfig, VehicleConfig};

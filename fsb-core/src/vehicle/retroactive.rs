@@ -15,6 +15,7 @@
 use crate::accumulator::Accumulator;
 use crate::estimator::IdentifierView;
 use crate::moments::{InputMoments, Substep};
+use crate::snapshot::{Archive, Stored, stored};
 
 /// One cascade for an input: x4, x5, x6 of (38).
 #[derive(Clone, Copy, Debug, Default)]
@@ -138,5 +139,34 @@ impl Retroactive {
             }
         }
         Some(shifts)
+    }
+}
+
+stored!(Chain { moments, past, sum, before, x });
+stored!(Axis { own, used, a, b, applied });
+
+impl Stored for Retroactive {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        self.axes.pass(archive);
+        self.blocks.pass(archive);
+    }
+}
+
+impl Chain {
+    fn numbers(&self) -> impl Iterator<Item = f32> {
+        [self.moments.j1, self.moments.j2, self.past, self.sum, self.before].into_iter().chain(self.x)
+    }
+}
+
+impl Retroactive {
+    /// Products of rates, scaled as inputs are: far below this. The square of it is a number.
+    const MOST: f32 = 1e15;
+
+    /// Of a state that was stored: nothing in it can overflow.
+    pub fn is_sound(&self) -> bool {
+        self.axes.iter().all(|axis| {
+            axis.own.numbers().chain(axis.used.numbers()).all(|x| x.abs() <= Self::MOST)
+                && [axis.a.value(), axis.b.value(), axis.applied].iter().all(|x| x.abs() <= Self::MOST * Self::MOST)
+        })
     }
 }
