@@ -572,7 +572,7 @@ typedef struct fsb_vehicle_group_t {
   struct fsb_guard_t guard;
   // A position, or a body angle, of larger magnitude is rejected [m or rad]. Up to 1e6.
   double measurement_limit;
-  // A force or torque with a larger component is rejected [N or N m]. Up to 5e5.
+  // A force or torque with a larger component is rejected [N or N m]. Up to 5e5; best what the actuators can do.
   double input_limit;
 } fsb_vehicle_group_t;
 

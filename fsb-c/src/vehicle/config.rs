@@ -75,7 +75,7 @@ pub struct fsb_vehicle_group_t {
     pub guard: fsb_guard_t,
     /// A position, or a body angle, of larger magnitude is rejected [m or rad]. Up to 1e6.
     pub measurement_limit: f64,
-    /// A force or torque with a larger component is rejected [N or N m]. Up to 5e5.
+    /// A force or torque with a larger component is rejected [N or N m]. Up to 5e5; best what the actuators can do.
     pub input_limit: f64,
 }
 

@@ -72,7 +72,8 @@ pub struct GroupConfig {
     pub guard: GuardConfig,
     /// A position, or a body angle, of larger magnitude is rejected (m or rad). Up to 1e6.
     pub measurement_limit: f64,
-    /// A force or torque with a larger component is rejected (N or N m). Up to 5e5.
+    /// A force or torque with a larger component is rejected (N or N m). Up to 5e5. Best what the actuators can do, no more: a
+    /// wrong one within it is believed, and moves the prediction as a gust of that force would.
     pub input_limit: f64,
 }
 

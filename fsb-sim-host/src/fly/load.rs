@@ -9,7 +9,7 @@ use super::error::LoadError;
 use super::scenario::Scenario;
 
 /// The built-in scenarios in order of the list, each the text of its file.
-const BUILT_IN: [&str; 11] = [
+const BUILT_IN: [&str; 12] = [
     include_str!("../../scenarios/spiral.toml"),
     include_str!("../../scenarios/aggressive.toml"),
     include_str!("../../scenarios/hover.toml"),
@@ -20,6 +20,7 @@ const BUILT_IN: [&str; 11] = [
     include_str!("../../scenarios/latency.toml"),
     include_str!("../../scenarios/dropouts.toml"),
     include_str!("../../scenarios/outliers.toml"),
+    include_str!("../../scenarios/bit-faults.toml"),
     include_str!("../../scenarios/random.toml"),
 ];
 

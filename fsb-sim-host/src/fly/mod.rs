@@ -5,6 +5,7 @@
 //! | `scenario`, `settings`, `random` | a flight as data, checked; what of it is drawn from the seed |
 //! | `load`, `error` | built-in scenarios, files, `--set`, and what is wrong with them |
 //! | `path`, `reference` | where to fly: position and attitude with their derivatives |
+//! | `bus` | bits that go wrong between sensor and estimator |
 //! | `pilot` | the core in the loop, and the yardstick |
 //! | `flight` | plant, sensors and a pilot, tick by tick |
 //! | `record`, `outcome` | a flight recorded, and what is kept of it |
@@ -17,6 +18,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod able;
+pub mod bus;
 pub mod error;
 pub mod figures;
 pub mod flight;

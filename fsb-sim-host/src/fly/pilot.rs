@@ -4,6 +4,7 @@ use fsb_core::control::{Motion, VehicleController, VehicleReference};
 use fsb_core::readout::ParameterStatus;
 use fsb_core::vehicle::{Attitude, Events, Identified, Measured, VehicleEstimator, VehicleState, Wrench};
 
+use super::bus::Bus;
 use super::error::Refused;
 use super::reference::{narrow, narrow_matrix};
 use super::scenario::Scenario;
@@ -61,6 +62,7 @@ pub struct Belief {
 /// stands in for all.
 #[derive(Clone, Debug)]
 pub struct CorePilot {
+    bus: Bus,
     estimator: VehicleEstimator<LATEST>,
     controller: VehicleController,
     /// In place of parameters neither identified nor guessed.
@@ -72,11 +74,11 @@ pub struct CorePilot {
 }
 
 impl CorePilot {
-    /// Of a scenario.
+    /// Of a scenario; the faults of its bus are those of `seed`.
     ///
     /// # Errors
-    /// What the core refuses.
-    pub fn new(scenario: &Scenario) -> Result<Self, Refused> {
+    /// What the core refuses, and shares of faults that are none.
+    pub fn new(scenario: &Scenario, seed: u64) -> Result<Self, Refused> {
         let config = scenario.estimator.estimator(scenario);
         let latest = config.translation.latency.max(config.rotation.latency);
         if latest as usize > LATEST {
@@ -85,6 +87,7 @@ impl CorePilot {
         let [mass, ix, iy, iz] = [config.mass, config.inertia[0], config.inertia[1], config.inertia[2]];
         let guess = [mass, ix, iy, iz].map(|p| p.nominal.unwrap_or((p.min * p.max).sqrt()) as f32);
         Ok(Self {
+            bus: Bus::new(&scenario.bus, seed)?,
             estimator: VehicleEstimator::new(&config).map_err(|error| Refused::Core("estimator", error))?,
             controller: scenario.control.controller(scenario.plant.gravity)?,
             guess,
@@ -113,18 +116,14 @@ impl CorePilot {
 
 impl Pilot for CorePilot {
     fn tick(&mut self, sight: &Sight) -> Wrench {
-        let measured = Measured {
-            position: sight.position.map(narrow),
-            attitude: sight.attitude.map(|attitude| Attitude::Quaternion(attitude.0.map(|value| value as f32))),
-        };
-        self.events = self.estimator.update(&measured, &sight.applied);
+        let position = self.bus.position(sight.position.map(narrow));
+        let attitude = self.bus.attitude(sight.attitude.map(|attitude| attitude.0.map(|value| value as f32)));
+        let measured = Measured { position, attitude: attitude.map(Attitude::Quaternion) };
+        self.events = self.estimator.update(&measured, &self.bus.wrench(&sight.applied));
         self.state = self.estimator.state();
-        if let Some(position) = sight.position {
-            self.measured.0 = Some(narrow(position));
-        }
-        if let Some(attitude) = sight.attitude {
-            self.measured.1 = Some(narrow_matrix(&attitude.matrix()));
-        }
+        self.measured.0 = position.or(self.measured.0);
+        let matrix = |q: [f32; 4]| narrow_matrix(&Quaternion(q.map(f64::from)).matrix());
+        self.measured.1 = attitude.map(matrix).or(self.measured.1);
         let (state, model, to) = (&self.state, self.estimator.model(), &sight.reference);
         let motion = Motion {
             position: state.position.or(self.measured.0).unwrap_or(to.position),

@@ -65,7 +65,7 @@ pub fn record(scenario: &Scenario, seed: u64, keep: Keep) -> Result<Flight, Refu
     let scenario = &scenario.drawn(seed);
     let every = scenario.ticks().div_ceil(SAMPLES).max(1);
     let mut recorder = Recorder::new(scenario, keep, every)?;
-    let mut pilot = CorePilot::new(scenario)?;
+    let mut pilot = CorePilot::new(scenario, seed)?;
     let diverged = fly(scenario, seed, &mut pilot, |moment, pilot| recorder.add(moment, pilot))?;
     let mut flight = recorder.finish(diverged);
     if keep == Keep::All {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::bus::BusConfig;
 use super::error::Refused;
 use super::path::{AttitudePath, PositionPath};
 use super::pilot::CorePilot;
@@ -30,6 +31,9 @@ pub struct Scenario {
     /// What is measured; all of it at every tick and exact by default.
     #[serde(default)]
     pub sensors: Sensors,
+    /// What happens to the numbers on their way to the estimator; nothing by default.
+    #[serde(default)]
+    pub bus: BusConfig,
     /// Where to fly.
     pub reference: References,
     /// Gains.
@@ -110,6 +114,6 @@ impl Scenario {
         check("limits.attitude", self.limits.attitude, 1e-3..=4.0, "must be from 0.001 to 4 rad")?;
         self.random.check().map_err(|error| error.within("random"))?;
         self.control.controller(self.plant.gravity)?;
-        CorePilot::new(self).map(|_| ())
+        CorePilot::new(self, 0).map(|_| ())
     }
 }

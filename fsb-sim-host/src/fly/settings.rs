@@ -127,7 +127,7 @@ pub struct ChangeSettings {
 }
 
 /// One group of three axes, see [`GroupConfig`]. What is absent has its default there, but `substeps` and `latency`, which
-/// are those of the sensor.
+/// are those of the sensor, and `input_limit`.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GroupSettings {
@@ -157,6 +157,8 @@ pub struct GroupSettings {
     pub substeps: Option<u32>,
     /// How late a measurement is [s].
     pub latency: Option<f64>,
+    /// The largest component of a force [N] or torque [N m] that is believed; what all rotors together can do.
+    pub input_limit: Option<f64>,
 }
 
 impl EstimatorSettings {
@@ -167,9 +169,13 @@ impl EstimatorSettings {
         let expected = |nominal, min, max| Expected { nominal, min, max };
         let inertia =
             |i: usize| expected(self.inertia.nominal.map(|nominal| nominal[i]), self.inertia.min, self.inertia.max);
+        // Nothing more than all rotors at their limit, in one direction, at the end of their arms.
+        let (rotor, arm) = (&scenario.plant.rotor, scenario.plant.frame.arm);
+        let force = 6.0 * rotor.thrust_max;
+        let torque = force * (arm + rotor.drag_ratio);
         VehicleConfig {
-            translation: self.translation.group(default.translation, &scenario.sensors.position, period),
-            rotation: self.rotation.group(default.rotation, &scenario.sensors.attitude, period),
+            translation: self.translation.group(default.translation, &scenario.sensors.position, period, force),
+            rotation: self.rotation.group(default.rotation, &scenario.sensors.attitude, period, torque),
             gravity: scenario.plant.gravity,
             mass: expected(self.mass.nominal, self.mass.min, self.mass.max),
             inertia: [inertia(0), inertia(1), inertia(2)],
@@ -181,7 +187,7 @@ impl EstimatorSettings {
 }
 
 impl GroupSettings {
-    fn group(&self, default: GroupConfig, sensor: &SensorConfig, period: f64) -> GroupConfig {
+    fn group(&self, default: GroupConfig, sensor: &SensorConfig, period: f64, most: f64) -> GroupConfig {
         let tuning = |lambda: Option<f64>, q: Option<f64>, default: Tuning| {
             let lambda_or = lambda.unwrap_or(default.lambda);
             Tuning { lambda: lambda_or, q: q.unwrap_or(if lambda.is_some() { lambda_or / 2.0 } else { default.q }) }
@@ -204,6 +210,7 @@ impl GroupSettings {
             max_relative_sd: self.max_relative_sd.unwrap_or(default.max_relative_sd),
             parameter_settle: self.parameter_settle.unwrap_or(default.parameter_settle),
             state_settle: self.state_settle.unwrap_or(default.state_settle),
+            input_limit: self.input_limit.unwrap_or(most),
             ..default
         }
     }

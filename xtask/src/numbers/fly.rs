@@ -7,7 +7,7 @@ use super::measured::fsb;
 use super::tables::number;
 
 /// The scenarios with one flight each, and what is set beside.
-const SCENARIOS: [(&str, &[&str]); 11] = [
+const SCENARIOS: [(&str, &[&str]); 12] = [
     ("aggressive", &[]),
     (
         "aggressive, 0.3°, 10 mm, 200 Hz",
@@ -22,6 +22,7 @@ const SCENARIOS: [(&str, &[&str]); 11] = [
     ("latency", &[]),
     ("dropouts", &[]),
     ("outliers", &[]),
+    ("bit-faults", &[]),
 ];
 
 /// Parameters, tracking beside the yardstick, velocity.
