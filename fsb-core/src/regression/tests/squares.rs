@@ -36,9 +36,7 @@ impl Squares {
             if pivot[c] > 0.0 {
                 for row in 0..4 {
                     let factor = self.sums[row][c] / pivot[c];
-                    for column in 0..4 {
-                        self.sums[row][column] -= factor * pivot[column];
-                    }
+                    self.sums[row].iter_mut().zip(pivot).for_each(|(x, p)| *x -= factor * p);
                 }
             }
         }
