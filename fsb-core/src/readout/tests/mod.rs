@@ -3,3 +3,4 @@
 mod covariance;
 mod noise_level;
 mod parameter;
+mod status;

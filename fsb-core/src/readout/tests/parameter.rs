@@ -1,6 +1,7 @@
 //! When a parameter may be used.
 
 use super::super::{ParameterRule, ParameterState, ParameterStatus, Readout};
+use crate::snapshot::{Archive, Stored};
 
 /// k from 0.5 to 2, valid from 5 % on.
 fn rule(max_relative_sd: f64) -> ParameterState {
@@ -201,4 +202,50 @@ fn held_beside_the_new_one() {
     tell(&mut state, 1.5, 0.04);
     assert_eq!(state.status, ParameterStatus::Valid);
     assert!(state.valid_value().is_some_and(|k| (k - 1.5).abs() < 1e-3) && state.held_value().is_none());
+}
+
+/// Puts one number in the place of another.
+struct Replace {
+    from: f32,
+    to: f32,
+    found: u32,
+}
+
+impl Archive for Replace {
+    fn word(&mut self, bits: &mut u32) {
+        if *bits == self.from.to_bits() {
+            *bits = self.to.to_bits();
+            self.found += 1;
+        }
+    }
+
+    fn refuse(&mut self) {}
+}
+
+/// A state that would hand out a k out of its range, or a variance below zero, is none.
+#[test]
+fn what_cannot_be_restored() {
+    let sound = |state: &ParameterState, from: f32, to: f32| {
+        let (mut state, mut replace) = (*state, Replace { from, to, found: 0 });
+        state.pass(&mut replace);
+        assert!(replace.found > 0, "{from} is not there");
+        state.is_sound()
+    };
+    let mut state = told(1.3, 0.01);
+    let known = state.valid().expect("known");
+    assert!(state.is_sound());
+    for held in [false, true] {
+        if held {
+            state.hold(1);
+        }
+        assert!(sound(&state, known.value, 1.9) && sound(&state, known.value, 0.5) && sound(&state, known.value, 2.0));
+        assert!(
+            !sound(&state, known.value, 2.1) && !sound(&state, known.value, 0.4) && !sound(&state, known.value, -1.3)
+        );
+        assert!(sound(&state, known.variance, 0.0) && !sound(&state, known.variance, -1e-9));
+        // The newest one's, while there is none.
+        assert!(sound(&state, f32::MAX, 1.0) && !sound(&state, f32::MAX, -1.0));
+    }
+    // Out of range, and said to be so: that is sound.
+    assert!(told(2.1, 0.01).is_sound() && told(0.4, 0.01).is_sound());
 }
