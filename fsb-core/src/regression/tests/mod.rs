@@ -1,5 +1,6 @@
 //! The regression's sums against sums in f64.
 
+mod model;
 mod shares;
 mod squares;
 mod triangle;
