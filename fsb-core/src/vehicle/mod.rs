@@ -56,6 +56,8 @@ mod readings;
 mod reinitialise;
 mod retroactive;
 mod state;
+#[cfg(test)]
+mod tests;
 mod triple;
 
 pub use config::{ChangeRule, Expected, GroupConfig, VehicleConfig};
