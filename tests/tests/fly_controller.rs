@@ -201,6 +201,7 @@ fn what_it_refuses() {
     assert_eq!(name(VehicleControlConfig { rotation: Gains { kp: 1.0, kd: -1.0 }, ..good }), "rotation.kd");
     assert_eq!(name(VehicleControlConfig { gravity: -1.0, ..good }), "gravity");
     assert_eq!(name(VehicleControlConfig { mass: [2.0, 1.0], ..good }), "mass");
+    assert_eq!(name(VehicleControlConfig { mass: [2.0, 2.0], ..good }), "mass");
     assert_eq!(name(VehicleControlConfig { inertia: [0.0, 1.0], ..good }), "inertia");
 
     let (controller, reference) = (controller(), VehicleReference::hover([0.0; 3]));

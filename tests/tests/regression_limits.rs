@@ -112,3 +112,19 @@ fn a_drag_too_large() {
         assert_eq!(known(terms).0, taken, "{drag}");
     }
 }
+
+/// At 8 kHz a stage moves by 2.5e-4 of its distance in a step: without sums in two parts it would stall, and so would k.
+#[test]
+fn no_stage_stalls_at_eight_kilohertz() {
+    let flight = DragFlight { period: 1.25e-4, ..FLIGHT };
+    let mut estimator = fsb_tests::drag_flight::estimator(flight.period);
+    fly(&mut estimator, &flight, 10.0, 15);
+    let k = f64::from(estimator.parameter().expect("valid").value) / flight.k - 1.0;
+    let mut worst = [0.0_f64; 2];
+    for (i, terms) in estimator.terms().into_iter().enumerate() {
+        worst[0] = worst[0].max((f64::from(terms.drag.value().expect("known")) - flight.drag[i]).abs());
+        worst[1] = worst[1].max((f64::from(terms.disturbance.value().expect("known")) - flight.disturbance[i]).abs());
+    }
+    println!("k off by {k:.1e}, D by {:.1e}, d by {:.1e}", worst[0], worst[1]);
+    assert!(k.abs() < 2e-7 && worst[0] < 1e-6 && worst[1] < 5e-6);
+}

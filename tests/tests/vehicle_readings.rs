@@ -97,6 +97,14 @@ fn settings_arrive() {
     assert!(unknown.translation().state_sd()[0].is_none() && unknown.rotation().state_sd()[0].is_none());
 }
 
+/// Free fall has its place; a gravity that pulls up has not.
+#[test]
+fn without_gravity() {
+    let with = |gravity: f64| VehicleEstimator::<1>::new(&VehicleConfig { gravity, ..config() }).map(|_| ());
+    assert_eq!(with(0.0), Ok(()));
+    assert_eq!(with(-0.1).unwrap_err().parameter(), "gravity");
+}
+
 /// Told not to learn nothing moves; nothing is learned on the ground.
 #[test]
 fn learning_is_told_to_both() {
