@@ -56,11 +56,6 @@ impl Accumulator {
         self.add(d);
         self.fold();
     }
-
-    /// Both parts, total first: for snapshots and tests.
-    pub const fn parts(&self) -> [f32; 2] {
-        [self.total, self.recent]
-    }
 }
 
 stored!(Accumulator { total, recent });

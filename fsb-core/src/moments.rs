@@ -124,4 +124,14 @@ mod tests {
         // Held at 1, 2, 3: J1 = 2, J2 = (1 (5/6) + 2 (3/6) + 3 (1/6))/3.
         assert!(close(held, InputMoments { j1: 2.0, j2: 7.0 / 9.0 }), "{held:?}");
     }
+
+    /// f(t) = 1 + t over 0..3 in parts of one unit of time each: J1 = 15/2, J2 = ∫ (3 - t)(1 + t) dt = 9.
+    #[test]
+    fn parts_in_the_same_unit_of_time() {
+        let mut sum = InputMoments::ZERO;
+        for a in [1.0_f32, 2.0, 3.0] {
+            sum.extend(&InputMoments { j1: a + 0.5, j2: a / 2.0 + 1.0 / 6.0 });
+        }
+        assert!((sum.j1 - 7.5).abs() < 1e-6 && (sum.j2 - 9.0).abs() < 1e-6, "{sum:?}");
+    }
 }

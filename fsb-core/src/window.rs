@@ -111,3 +111,55 @@ impl Window {
         within(e) && within(h) && (h + e - self.limit).abs() < 1e-3 && (0.999..=1.001).contains(&self.limit)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tuning::Tuning;
+
+    fn decay(q_t: f64) -> Decay {
+        Tuning { lambda: q_t, q: q_t }.plain_decay(1.0)
+    }
+
+    /// e = ρ^n and h = 1 - ρ^n, h to a few ulps of itself from the first sample on: that is what the sums are for.
+    #[test]
+    fn the_exponential_and_what_it_lacks() {
+        for q_t in [1e-5, 1e-3, 0.1, 1.0] {
+            let (design, mut window) = (WindowDesign::new(&decay(q_t)), Window::START);
+            for n in 0..(3.0 / q_t) as u32 {
+                let exact = -libm::expm1(-f64::from(n) * q_t);
+                let off = (f64::from(window.h.value()) - exact).abs() / exact;
+                assert!(n == 0 || off < 1e-6, "{n} at {q_t}: h off by {off:.1e} of itself");
+                assert!(window.is_sound() && !window.is_settled(), "{n} at {q_t}: {window:?}");
+                window.step(&design);
+            }
+        }
+    }
+
+    /// Open for good once e is below 1e-9, which takes 20.7/(qT) samples; nothing moves from then on.
+    #[test]
+    fn it_settles() {
+        let (design, mut window) = (WindowDesign::new(&decay(0.01)), Window::START);
+        for n in 0..2200 {
+            assert!(window.is_settled() == (n > 2074) || (2072..=2076).contains(&n), "{n}: {window:?}");
+            window.step(&design);
+        }
+        let settled = window;
+        window.step(&design);
+        assert_eq!((window, window.e.value()), (settled, 0.0));
+    }
+
+    /// Each of what a window must obey, broken by itself.
+    #[test]
+    fn what_is_no_window() {
+        let sound =
+            |e: f32, h: f32, limit: f32| Window { e: Accumulator::new(e), h: Accumulator::new(h), limit }.is_sound();
+        assert!(sound(1.0, 0.0, 1.0) && sound(0.5, 0.5, 1.0) && sound(0.25, 0.7499, 1.0) && sound(0.0, 1.0, 1.0));
+        // e out of 0..=1, h out of 0..=1, a sum that is not the one recorded, a sum that is not 1, and no numbers.
+        assert!(!sound(1.0005, 0.0, 1.0005) && !sound(-0.0005, 1.0, 0.9995));
+        assert!(!sound(0.0, 1.0005, 1.0005) && !sound(1.0, -0.0005, 0.9995));
+        assert!(!sound(0.5, 0.4, 1.0) && !sound(0.5, 0.6, 1.0));
+        assert!(!sound(0.5, 0.52, 1.02) && !sound(0.5, 0.48, 0.98));
+        assert!(!sound(f32::NAN, 0.5, 1.0) && !sound(0.5, f32::NAN, 1.0) && !sound(0.5, 0.5, f32::NAN));
+    }
+}

@@ -54,9 +54,11 @@ fn a_noise_gain_by_hand() {
         gain.correct(&Gains::at(&window, &design));
         if [1, 2, 5, 20, 96, 200, 1000, 2000].contains(&n) {
             let quick = NoiseGain::at_sample(n, tuning, PERIOD);
-            for (exact, quick) in
-                [(gain.position(), quick.position()), (gain.velocity(&design), quick.velocity(&design))]
-            {
+            for (exact, quick) in [
+                (gain.position(), quick.position()),
+                (gain.velocity(&design), quick.velocity(&design)),
+                (gain.position_after(20), quick.position_after(20)),
+            ] {
                 assert!((quick / exact - 1.0).abs() < if n <= 96 { 1e-4 } else { 0.03 }, "n {n}: {quick} for {exact}");
             }
         }
@@ -95,6 +97,66 @@ fn an_identifier_by_hand() {
             let k = f64::from(ratio.quotient());
             let bound = if n >= 1000 { 1e-6 } else { 5e-6 };
             assert!((k / plant.k - 1.0).abs() <= bound, "sample {n}: {k}");
+        }
+    }
+}
+
+/// A position that stays after a step of 0.1 m: what is left of the innovation and the velocity ends at zero, not among the
+/// subnormal numbers, on which some processors are slow.
+#[test]
+fn an_observer_comes_to_rest() {
+    let design = ObserverDesign::new(Tuning::from_lambda(100.0), PERIOD).unwrap();
+    let (mut observer, mut window, mut gains) = (Observer::default(), Window::START, Gains::FIRST);
+    observer.start(1.0);
+    for n in 1..4000 {
+        design.step(&mut window);
+        let now = Gains::at(&window, &design);
+        let y = if n < 100 { 1.0 } else { 1.1 };
+        observer.correct(y, InputMoments::ZERO, &Model::default(), gains.m1(), now.t_l2());
+        gains = now;
+        observer.fold();
+        let (innovation, motion) = (observer.innovation(), observer.t_velocity());
+        assert!(!innovation.is_subnormal() && !motion.is_subnormal(), "{n}: {innovation:e}, {motion:e}");
+        if n == 110 {
+            assert!(innovation.abs() > 1e-3 && motion.abs() > 1e-3, "{innovation:e}, {motion:e}");
+        }
+    }
+    assert_eq!((observer.innovation(), observer.t_velocity()), (0.0, 0.0));
+}
+
+/// Dead-beat at n = 1; in the end l1 = 1 - p² and T l2 = (1 - p)².
+#[test]
+fn the_gains_begin_and_end_where_they_must() {
+    let design = ObserverDesign::new(Tuning::from_lambda(20.0), PERIOD).unwrap();
+    let (mut window, p) = (Window::START, (-20.0 * PERIOD).exp());
+    for n in 1..=4000 {
+        design.step(&mut window);
+        let gains = Gains::at(&window, &design);
+        if n == 1 {
+            assert!((gains.l1() - 1.0).abs() < 1e-6 && (gains.t_l2() - 1.0).abs() < 1e-5, "{gains:?}");
+        }
+        if n == 4000 {
+            assert!((f64::from(gains.l1()) / (1.0 - p * p) - 1.0).abs() < 1e-5, "{gains:?}");
+            assert!((f64::from(gains.t_l2()) / (1.0 - p).powi(2) - 1.0).abs() < 1e-5, "{gains:?}");
+        }
+    }
+}
+
+/// Periods without a measurement: y + n T v, so that var y grows by 2 n cov(y, T v) + n² var T v.
+#[test]
+fn a_noise_gain_while_nothing_is_measured() {
+    let tuning = Tuning::from_lambda(20.0);
+    for samples in [1, 3, 40, 1000] {
+        let gain = NoiseGain::at_sample(samples, tuning, PERIOD);
+        let mut later = gain;
+        for missed in 0..30_u16 {
+            let quick = gain.position_after(missed);
+            assert!((quick / later.position() - 1.0).abs() < 1e-5, "{samples}, {missed}: {quick} for {later:?}");
+            later.predict();
+        }
+        // The line through the first two samples is at 3 y[1] - 2 y[0] two periods later.
+        if samples == 1 {
+            assert!((gain.position_after(2) - 13.0).abs() < 1e-3, "{}", gain.position_after(2));
         }
     }
 }

@@ -80,7 +80,7 @@ fn rates_and_periods() {
         // By the period they run at: M T = 4 ms for the identifier, T = 1 ms for the observer.
         ("identifier.lambda", |c, x| c.identifier.lambda = x, &[2.6e-4, 249.0]),
         ("observer.lambda", |c, x| c.observer.lambda = x, &[1.1e-3, 999.0]),
-        ("memory.tau", |c, x| c.memory = Memory::Fading { tau: x }, &[4.1e-3, 1e9]),
+        ("memory.tau", |c, x| c.memory = Memory::Fading { tau: x }, &[4e-3, 1e9]),
     ]);
 }
 

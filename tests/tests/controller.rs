@@ -97,6 +97,12 @@ fn a_parameter_out_of_range_is_an_error() {
 }
 
 #[test]
+fn the_errors_say_what_is_wrong() {
+    let [range, finite] = [ControlError::ParameterOutOfRange, ControlError::NonFinite].map(|e| e.to_string());
+    assert!(!range.is_empty() && !finite.is_empty() && range != finite, "{range}, {finite}");
+}
+
+#[test]
 fn what_is_not_finite_is_an_error() {
     let controller = TrackingController::new(&CONFIG).unwrap();
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN] {

@@ -77,6 +77,43 @@ fn the_error_is_the_axis_times_the_sine() {
     }
 }
 
+/// Far from level, everything turning: (11) and the law of the torque by matrices in f64.
+#[test]
+fn a_wrench_in_any_attitude() {
+    let (seen_at, wanted_at) = (Quaternion::from_euler([0.7, -0.5, 2.1]), Quaternion::from_euler([-0.3, 0.9, 1.2]));
+    let (rates, wanted_rates, wanted_angular): (Vector, Vector, Vector) =
+        ([0.8, -1.3, 0.5], [1.1, 0.4, -0.9], [2.0, -3.0, 1.5]);
+    let reference = VehicleReference {
+        acceleration: [1.0, -2.0, 0.7],
+        attitude: narrow_matrix(&wanted_at.matrix()),
+        rates: narrow(wanted_rates),
+        angular_acceleration: narrow(wanted_angular),
+        ..VehicleReference::hover([0.0; 3])
+    };
+    let (r, d) = (seen_at.matrix(), wanted_at.matrix());
+    // Q = Rᵀ R_d and its action.
+    let q: [Vector; 3] =
+        std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| r[k][i] * d[k][j]).sum::<f64>()));
+    let turn = |v: Vector| -> Vector { std::array::from_fn(|i| (0..3).map(|j| q[i][j] * v[j]).sum::<f64>()) };
+    let cross = |a: Vector, b: Vector| -> Vector {
+        std::array::from_fn(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
+    };
+    // R_dᵀ R is Qᵀ.
+    let error: Vector = std::array::from_fn(|i| 0.5 * (q[(i + 1) % 3][(i + 2) % 3] - q[(i + 2) % 3][(i + 1) % 3]));
+    let moving = turn(wanted_rates);
+    let (ahead, coriolis) = (turn(wanted_angular), cross(rates, moving));
+    let momentum: Vector = std::array::from_fn(|i| INERTIA[i] * rates[i]);
+    let gyroscopic = cross(rates, momentum);
+    let wrench = controller().wrench(&reference, &motion(&seen_at, rates), MASS as f32, narrow(INERTIA)).unwrap();
+    for i in 0..3 {
+        let pull: f64 = (0..3).map(|j| r[j][i] * [1.0, -2.0, 0.7 + 9.81][j]).sum();
+        assert!((f64::from(wrench.force[i]) - MASS * pull).abs() < 1e-4, "{wrench:?}");
+        let angular = ahead[i] - coriolis[i] - 20.0 * (rates[i] - moving[i]) - 100.0 * error[i];
+        let expected = INERTIA[i] * angular + gyroscopic[i];
+        assert!((f64::from(wrench.torque[i]) - expected).abs() < 1e-4, "axis {i}: {wrench:?}, {expected}");
+    }
+}
+
 /// A vehicle with thrust to spare. So far from level it cannot hold its place, but the allocation keeps the torque first.
 fn strong(start: StartConfig) -> Hexarotor {
     let rotor = RotorConfig { thrust_max: 200.0, ..RotorConfig::default() };
@@ -164,6 +201,7 @@ fn what_it_refuses() {
     assert_eq!(name(VehicleControlConfig { rotation: Gains { kp: 1.0, kd: -1.0 }, ..good }), "rotation.kd");
     assert_eq!(name(VehicleControlConfig { gravity: -1.0, ..good }), "gravity");
     assert_eq!(name(VehicleControlConfig { mass: [2.0, 1.0], ..good }), "mass");
+    assert_eq!(name(VehicleControlConfig { mass: [2.0, 2.0], ..good }), "mass");
     assert_eq!(name(VehicleControlConfig { inertia: [0.0, 1.0], ..good }), "inertia");
 
     let (controller, reference) = (controller(), VehicleReference::hover([0.0; 3]));

@@ -8,6 +8,7 @@ mod licences;
 mod lints;
 mod metadata;
 mod miri;
+mod mutants;
 mod numbers;
 mod on_target;
 mod setup;
@@ -18,7 +19,7 @@ mod target;
 
 use std::process::ExitCode;
 
-use steps::{STEPS, Step};
+use steps::{LONG, STEPS, Step};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -43,7 +44,7 @@ fn select(arguments: &[String]) -> Result<Option<Vec<&'static Step>>, String> {
     }
     let mut chosen = Vec::new();
     for argument in arguments.iter().filter(|argument| *argument != "--write") {
-        match STEPS.iter().find(|step| step.name == argument) {
+        match STEPS.iter().chain(LONG).find(|step| step.name == argument) {
             Some(step) => chosen.push(step),
             None if argument == "test" => chosen.extend(STEPS),
             None => return Err(argument.clone()),
@@ -55,6 +56,10 @@ fn select(arguments: &[String]) -> Result<Option<Vec<&'static Step>>, String> {
 fn help() -> String {
     let mut text = String::from("Usage: cargo xtask test | STEP...\n\n  test      every step below, in this order\n\n");
     for step in STEPS {
+        text += &format!("  {:<11} {}\n", step.name, step.about);
+    }
+    text += "\nNot part of `test`:\n\n";
+    for step in LONG {
         text += &format!("  {:<11} {}\n", step.name, step.about);
     }
     text += "\n  --write   write what a step would only compare: the C header, the numbers in the documentation\n";
@@ -74,6 +79,8 @@ mod tests {
     fn test_is_every_step_and_a_name_is_one() {
         assert_eq!(names(&["test"]).unwrap().unwrap().len(), STEPS.len());
         assert_eq!(names(&["doc", "fmt"]).unwrap().unwrap(), ["doc", "fmt"]);
+        assert_eq!(names(&["mutants"]).unwrap().unwrap(), ["mutants"]);
+        assert!(!names(&["test"]).unwrap().unwrap().contains(&"mutants"));
         assert_eq!(names(&["c", "--write"]).unwrap().unwrap(), ["c"]);
         assert_eq!(names(&["numbers", "--write"]).unwrap().unwrap(), ["numbers"]);
     }
@@ -83,6 +90,6 @@ mod tests {
         assert_eq!(names(&[]), Ok(None));
         assert_eq!(names(&["fmt", "--help"]), Ok(None));
         assert_eq!(names(&["fmt", "frobnicate"]), Err("frobnicate".into()));
-        assert!(STEPS.iter().all(|step| help().contains(step.about)));
+        assert!(STEPS.iter().chain(LONG).all(|step| help().contains(step.about)));
     }
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 
 use crate::on_target::{cost, disassembly, examples, firmware, panics, parity, size};
-use crate::{c_interface, fuzz, hygiene, licences, lints, miri, numbers, setup, suite, target};
+use crate::{c_interface, fuzz, hygiene, licences, lints, miri, mutants, numbers, setup, suite, target};
 
 /// One step of the gate.
 #[derive(Debug)]
@@ -87,6 +87,10 @@ pub const STEPS: &[Step] = &[
     Step { name: "suite", about: "cargo test on the whole workspace", run: suite::run },
 ];
 
+/// What takes hours: asked for by name only.
+pub const LONG: &[Step] =
+    &[Step { name: "mutants", about: "what no quick test notices, by cargo-mutants: hours", run: mutants::run }];
+
 /// Runs the steps one after the other, the rest too when one fails (except without `setup`); true if none failed.
 pub fn run(steps: &[&Step]) -> bool {
     let start = Instant::now();
@@ -154,9 +158,10 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_none_hides_the_gate() {
-        for (index, step) in STEPS.iter().enumerate() {
+        let steps: Vec<&Step> = STEPS.iter().chain(LONG).collect();
+        for (index, step) in steps.iter().enumerate() {
             assert_ne!(step.name, "test");
-            assert!(STEPS[..index].iter().all(|other| other.name != step.name));
+            assert!(steps[..index].iter().all(|other| other.name != step.name));
         }
     }
 }

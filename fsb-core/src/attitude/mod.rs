@@ -10,5 +10,7 @@ mod body_angles;
 #[cfg(any(feature = "euler", feature = "micromath"))]
 pub mod euler;
 pub(crate) mod rotation;
+#[cfg(test)]
+mod tests;
 
 pub use body_angles::{AttitudeError, BodyAngles};

@@ -29,6 +29,8 @@ mod config;
 mod gate;
 mod guarded;
 mod stored;
+#[cfg(test)]
+mod tests;
 mod verdict;
 
 pub use config::{GuardConfig, GuardDesign};

@@ -21,6 +21,8 @@ mod block;
 mod cascade;
 mod coefficients;
 mod free_state;
+#[cfg(test)]
+mod tests;
 mod unit;
 
 pub use block::{BlockDesign, BlockMean, BlockMeans};

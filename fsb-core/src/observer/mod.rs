@@ -9,6 +9,8 @@
 mod axis;
 mod gains;
 mod noise_gain;
+#[cfg(test)]
+mod tests;
 
 pub use axis::{Model, Observer};
 pub use gains::{Gains, ObserverDesign};

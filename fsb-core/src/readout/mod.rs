@@ -13,6 +13,8 @@ mod noise_level;
 mod parameter;
 mod ratio;
 mod status;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use covariance::CovarianceDesign;
 pub use covariance::{NoiseCross, NoiseShape};

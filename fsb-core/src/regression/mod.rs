@@ -31,6 +31,8 @@ mod readings;
 mod reduced;
 mod seed;
 mod step;
+#[cfg(test)]
+mod tests;
 mod triangle;
 mod turns;
 mod velocity;

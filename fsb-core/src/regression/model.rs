@@ -90,11 +90,6 @@ impl DragModel {
         let before = (step - still.j2) / (1.0 + self.lag);
         before - self.loss * before + still.j1
     }
-
-    /// D T.
-    pub const fn delta(&self) -> f32 {
-        self.delta
-    }
 }
 
 /// Position and velocity of one axis: [`Observer`] with drag and disturbance in its prediction. With D = 0 and d = 0 it gives

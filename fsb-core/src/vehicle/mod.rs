@@ -58,6 +58,8 @@ mod reinitialise;
 mod retroactive;
 mod state;
 mod stored;
+#[cfg(test)]
+mod tests;
 mod triple;
 
 pub use config::{ChangeRule, Expected, GroupConfig, VehicleConfig};

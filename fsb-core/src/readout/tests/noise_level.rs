@@ -1,0 +1,51 @@
+//! The running means of the noise's variance.
+
+use super::super::NoiseLevel;
+
+/// A mean of all values up to the memory, from then on a fading one over so many.
+#[test]
+fn means_over_the_memory() {
+    let mut level = NoiseLevel::default();
+    for n in 1..=4_u8 {
+        level.add(f32::from(n), 2.0 * f32::from(n), 0.0, 4);
+    }
+    // (1 + 2 + 3 + 4)/4, then a quarter of the way to 10.
+    assert_eq!(level.variances(), [2.5, 5.0]);
+    level.add(10.0, 20.0, 0.0, 4);
+    assert_eq!(level.variances(), [4.375, 8.75]);
+}
+
+/// The larger band counts, whichever it is; trusted from the eighth value on.
+#[test]
+fn the_larger_of_two() {
+    for (fine, slow) in [(1.0, 3.0), (3.0, 1.0), (2.0, 2.0)] {
+        let mut level = NoiseLevel::default();
+        for n in 0..20 {
+            assert_eq!(level.is_known(), n >= 8);
+            level.add(fine, slow, 0.0, 256);
+        }
+        assert_eq!((level.variance(), level.measurement_variance()), (fine.max(slow), fine));
+    }
+}
+
+/// The misfit remembers 32 values: it counts from 25 times the noise on, as a whole.
+#[test]
+fn the_misfit() {
+    let mut level = NoiseLevel::default();
+    level.add(1.0, 25.0, 7.0, 256);
+    assert_eq!(level.misfit(), (0.0, 7.0), "that may still be noise");
+    level.add(1.0, 35.0, 9.0, 256);
+    assert_eq!(level.misfit(), (30.0, 8.0));
+    // The 32 values: 30 more of 30 and 8, then one of 94 and 72 moves the means by a 32nd of the distance.
+    for _ in 0..30 {
+        level.add(1.0, 30.0, 8.0, 256);
+    }
+    level.add(1.0, 94.0, 72.0, 256);
+    let (unexplained, signal) = level.misfit();
+    assert!((unexplained - 32.0).abs() < 1e-4 && (signal - 10.0).abs() < 1e-4, "{unexplained}, {signal}");
+    for _ in 0..1000 {
+        level.add(1.0, 26.0, 1.0, 256);
+    }
+    let (unexplained, signal) = level.misfit();
+    assert!((unexplained - 26.0).abs() < 1e-3 && (signal - 1.0).abs() < 1e-3, "{unexplained}, {signal}");
+}
