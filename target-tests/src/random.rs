@@ -10,9 +10,14 @@ impl Random {
 
     /// Uniform in [-1, 1).
     pub fn uniform(&mut self) -> f64 {
+        f64::from(self.word() as i32) * (1.0 / 2_147_483_648.0)
+    }
+
+    /// Any bits but all zero.
+    pub fn word(&mut self) -> u32 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 17;
         self.0 ^= self.0 << 5;
-        f64::from(self.0 as i32) * (1.0 / 2_147_483_648.0)
+        self.0
     }
 }

@@ -14,11 +14,12 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use fsb_core::estimator::{AxisState, OutOfStep};
-use fsb_core::vehicle::{Events, Measured, VehicleEstimator, VehicleState, Wrench};
+use fsb_core::vehicle::{Attitude, Events, Measured, VehicleEstimator, VehicleState, Wrench};
 use semihosting::{println, process};
 use target_tests::board::{instructions, overhead};
 use target_tests::cost::Cost;
 use target_tests::drag::DragFlight;
+use target_tests::random::Random;
 use target_tests::rigid_body::{Conditions, RigidBody};
 use target_tests::stack::stack_of;
 use target_tests::vehicle::{Drag, FULL, PLAIN, Vehicle, drag_config, vehicle};
@@ -50,6 +51,7 @@ fn main() -> ! {
 fn count() {
     fly(&PLAIN, "vehicle_update", "vehicle_state");
     fly(&FULL, "vehicle_update_with_everything", "vehicle_state_with_everything");
+    any_bits(&FULL, "vehicle_update_any_bits", "vehicle_state_any_bits");
     regress(1e-3, TICKS, "drag_tick_1000_hz");
     regress(1e-2, TICKS / 10, "drag_tick_100_hz");
 }
@@ -77,6 +79,51 @@ fn fly(conditions: &Conditions, update_name: &'static str, state_name: &'static 
     assert!(valid, "a parameter did not become valid: these are not the updates they are meant to be");
     let noticed = vehicle.counters().mass_changes > 0;
     assert!(noticed == conditions.loaded_at.is_some(), "the load should have been noticed, and nothing else");
+}
+
+/// In turns a quarter of a second of flight and one in which half of what comes is any bits.
+fn any_bits(conditions: &Conditions, update_name: &'static str, state_name: &'static str) {
+    let (mut update, mut state) = (Cost::new(update_name), Cost::new(state_name));
+    let mut vehicle = vehicle(conditions);
+    let mut body = RigidBody::new(*conditions);
+    let mut applied = Wrench::default();
+    let mut random = Random::START;
+    let nothing = overhead();
+    for tick in 0..TICKS {
+        let (mut measured, told) = body.step();
+        let mut spoil = |values: &mut [f32]| {
+            for value in values {
+                if random.word() & 1 == 0 {
+                    *value = f32::from_bits(random.word());
+                }
+            }
+        };
+        if tick & 256 != 0 {
+            spoil(&mut applied.force);
+            spoil(&mut applied.torque);
+            if let Some(position) = &mut measured.position {
+                spoil(position);
+            }
+            let mut quaternion = [1.0, 0.0, 0.0, 0.0];
+            spoil(&mut quaternion);
+            if measured.attitude.is_some() && tick & 3 == 0 {
+                measured.attitude = Some(Attitude::Quaternion(quaternion));
+            }
+        }
+        let start = instructions();
+        let _ = black_box(vehicle_update(&mut vehicle, &measured, &applied));
+        let middle = instructions();
+        let _ = black_box(vehicle_state(&vehicle));
+        let end = instructions();
+        update.add(tick, middle.wrapping_sub(start).saturating_sub(nothing));
+        state.add(tick, end.wrapping_sub(middle).saturating_sub(nothing));
+        applied = told;
+    }
+    update.print();
+    state.print();
+    let counters = vehicle.counters();
+    let kinds = [counters.rejected_positions, counters.rejected_attitudes, counters.rejected_wrenches];
+    assert!(kinds.iter().all(|&count| count > 100), "too little was wrong");
 }
 
 fn stack() {
