@@ -2,7 +2,7 @@
 
 use super::Estimator;
 use super::axis::Clocks;
-use super::identify::SingleRound;
+use super::identify::{Misfit, SingleRound};
 use super::output::Learning;
 use super::parts::{Frame, Parts, parameter_of};
 
@@ -125,8 +125,8 @@ impl Parts<'_> {
         if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
             axis.observer.fold();
             axis.cascade.fold();
-            if !axis.follow_on(parameter, common) {
-                self.serve_carefully(index);
+            if parameter.stale || !axis.follow_on(parameter, common) {
+                self.serve_carefully(index, true);
             }
         }
     }
@@ -139,7 +139,7 @@ impl Parts<'_> {
                 axis.observer.fold();
                 axis.cascade.fold();
             }
-            self.serve_carefully(index);
+            self.serve_carefully(index, true);
         }
     }
 
@@ -190,8 +190,11 @@ impl Parts<'_> {
             }
             // Sums are folded, the parameter is read, the observer follows.
             axis.observer.fold();
-            if !axis.follow_on(parameter, common) {
-                self.serve_carefully(index);
+            // The variance that a coarse step makes due is read when the next block ends, if that one brings none.
+            let coarse = progress.identifier.stride == 0 && common.covariance.steps > 1;
+            let due = parameter.stale && !coarse;
+            if due || !axis.follow_on(parameter, common) {
+                self.serve_carefully(index, due);
             }
         }
         if gains_turn {
@@ -212,7 +215,7 @@ impl Parts<'_> {
         }
         if common.schedule.round > 32 {
             for axis in axes {
-                axis.observer.fold();
+                axis.fold_observer();
             }
         }
     }
@@ -226,32 +229,26 @@ impl Parts<'_> {
         progress.observer.count -= by;
         progress.identifier.began = progress.identifier.began.saturating_sub(by);
         for axis in axes {
-            axis.settled_at = axis.settled_at.saturating_sub(by);
-            axis.decide_use();
+            axis.rebase(by);
         }
     }
 
-    /// An axis's turn where the variance has to be read or the status or the source of the prediction may change.
+    /// An axis's turn where the variance has to be `read` or the status or the source of the prediction may change.
     #[inline(never)]
-    fn serve_carefully(&mut self, index: usize) {
+    fn serve_carefully(&mut self, index: usize, read: bool) {
         let Frame { common, progress, axes } = &mut *self.frame;
         let pooled = self.parameters.len() == 1;
         let Some(parameter) = self.parameters.get_mut(if pooled { 0 } else { index }) else { return };
-        if parameter.stale {
+        if read && parameter.stale {
             let per_stride = common.covariance.per_stride;
-            let sharing = if pooled { axes.get(..) } else { axes.get(index..=index) };
-            let mut variance = Some(0.0);
-            let (mut unexplained, mut signal) = (0.0, 0.0);
-            for axis in sharing.into_iter().flatten() {
-                if axis.present {
-                    variance = variance.zip(axis.numerator_variance(per_stride)).map(|(a, b)| a + b);
-                    let (of_axis, of) = axis.noise.misfit();
-                    unexplained += of_axis;
-                    signal += of;
-                }
+            let mut sum = Misfit::NONE;
+            if pooled {
+                axes.iter().for_each(|axis| axis.share_misfit(&mut sum, per_stride));
+            } else if let Some(axis) = axes.get(index) {
+                axis.add_misfit(&mut sum, per_stride);
             }
-            parameter.read_variance(variance, common.identifier.scale2());
-            parameter.compare(unexplained, common.max_misfit * signal);
+            parameter.read_variance(sum.known.then_some(sum.variance), common.identifier.scale2());
+            parameter.compare(sum.unexplained, common.max_misfit * sum.signal);
         }
         let Some(axis) = axes.get_mut(index) else { return };
         let settled = progress.observer.count - progress.identifier.began >= common.parameter_settle;

@@ -112,6 +112,18 @@ impl Axis {
         self.block = BlockMeans::default();
     }
 
+    #[inline(never)]
+    pub fn fold_observer(&mut self) {
+        self.observer.fold();
+    }
+
+    /// Counts begin so much later.
+    #[inline(never)]
+    pub fn rebase(&mut self, by: u32) {
+        self.settled_at = self.settled_at.saturating_sub(by);
+        self.decide_use();
+    }
+
     /// Whether the axis takes part, which is decided at the first sample of its first block.
     #[inline(always)]
     pub fn takes_part(&mut self) -> bool {
@@ -124,7 +136,7 @@ impl Axis {
     /// The observer follows a parameter that is valid and stays so. False where there is more to decide.
     #[inline(always)]
     pub fn follow_on(&mut self, parameter: &mut ParameterState, common: &Common) -> bool {
-        let usual = !parameter.stale && self.source == Source::Identified && parameter.read_on();
+        let usual = self.source == Source::Identified && parameter.read_on();
         if usual {
             self.model.follow(parameter.newest_value(), common.period2);
         }

@@ -33,9 +33,13 @@ impl Axis {
         if common.any_drift {
             z2 -= self.own.drift * clock.unit.zu();
         }
+        let coarse = clock.stride == 0;
+        if coarse {
+            self.cascade.keep_normal();
+        }
         // The window is zero in the first two blocks.
         if self.tells(common) && clock.blocks > 2 {
-            self.read_out(z2, clock.stride == 0, clock, parameter, common);
+            self.read_out(z2, coarse, clock, parameter, common);
         }
     }
 
@@ -123,11 +127,10 @@ impl Axis {
             let step = self.observer.innovation() - self.innovation_before;
             // With the quotient of this very moment: the one read last may be from before the take-off.
             let residual = z2 - parameter.ratio.quotient() * z0;
-            let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
             self.noise.add(
                 step * step * common.innovation_to_mean,
-                residual * residual * to_mean,
-                z2 * z2 * to_mean,
+                residual * residual * clock.to_mean,
+                z2 * z2 * clock.to_mean,
                 covariance.noise_memory,
             );
         }
@@ -143,15 +146,39 @@ impl Axis {
         parameter.step_coarsely(covariance.stride * down * z0, noise, covariance.forgetting);
     }
 
-    /// σ² var a, this axis's share of the variance of the numerator of k̂; `None` while the noise level is not known, unless
-    /// the axis has added nothing yet.
-    pub fn numerator_variance(&self, per_stride: f32) -> Option<f32> {
-        if self.noise_sum.value() == 0.0 {
-            Some(0.0)
-        } else if self.noise.is_known() {
-            Some(self.noise.variance() * per_stride * self.noise_sum.value())
-        } else {
-            None
+    /// Adds this axis's share of what its parameter's uncertainty is made of, where it takes part.
+    #[inline(always)]
+    pub fn add_misfit(&self, to: &mut Misfit, per_stride: f32) {
+        if !self.present {
+            return;
         }
+        let (unexplained, signal) = self.noise.misfit();
+        let sum = self.noise_sum.value();
+        // While the noise level is not known the variance is not, unless nothing has been added yet.
+        to.known &= sum == 0.0 || self.noise.is_known();
+        to.variance += self.noise.variance() * per_stride * sum;
+        to.unexplained += unexplained;
+        to.signal += signal;
     }
+
+    /// The same, for one of several axes.
+    #[inline(never)]
+    pub fn share_misfit(&self, to: &mut Misfit, per_stride: f32) {
+        self.add_misfit(to, per_stride);
+    }
+}
+
+/// What the axes that share a parameter contribute to its uncertainty.
+pub(super) struct Misfit {
+    /// Whether the variance is known.
+    pub known: bool,
+    /// σ² var a, the variance of the numerator of k̂.
+    pub variance: f32,
+    /// What the model leaves unexplained beyond noise, and what there is to explain.
+    pub unexplained: f32,
+    pub signal: f32,
+}
+
+impl Misfit {
+    pub const NONE: Self = Self { known: true, variance: 0.0, unexplained: 0.0, signal: 0.0 };
 }

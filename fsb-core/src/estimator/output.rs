@@ -111,11 +111,10 @@ pub(crate) struct InnovationView<const N: usize> {
 pub(crate) struct IdentifierView<const N: usize> {
     /// Steps so far; begins anew with the identification.
     pub blocks: u32,
-    /// g\[n-1\], the weight of S.
+    /// g\[n-1\], the weight of S; scaled.
     pub weight: f32,
     /// c = 1 - e^(-λT)
     pub c: f32,
-    pub scale: f32,
     /// 1/M
     pub per_length: f32,
     /// ẑ0, scaled.

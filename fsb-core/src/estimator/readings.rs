@@ -100,7 +100,6 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             blocks: clock.blocks,
             weight: clock.at.g,
             c: common.identifier.c,
-            scale: common.identifier.scale,
             per_length: common.block.per_length,
             z0: axes.each_ref().map(|axis| axis.cascade.z0()),
             // The window is zero in the first two steps; a block of predictions says nothing.

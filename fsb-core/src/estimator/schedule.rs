@@ -36,14 +36,20 @@ impl Schedule {
     pub fn new(axes: u32, block: u32, turn: u32, period: f64, coarse_steps: u32) -> Self {
         let round = if block == 1 { 8 } else { block };
         let gains_every = if round <= 16 { round } else { 16 };
-        // Where the last axis begins its block nobody completes one.
-        let shared_at = (axes - 1).min(block - 1);
-        let weights_at = shared_at;
-        let gains_at = match block {
-            1 => axes % 8,
-            // After the last one of the axes that have a turn then. A block is never zero; the compiler need not know.
-            _ if block < axes => shared_at + (axes - 1) / block.max(1) * block,
-            _ => shared_at,
+        let (weights_at, gains_at) = match block {
+            1 => (0, axes % 8),
+            // Where the last axis begins its block nobody completes one, and the gains come after the last one of the axes that
+            // have a turn then. A block is never zero; the compiler need not know.
+            _ if block <= axes => {
+                let shared_at = (axes - 1).min(block - 1);
+                (shared_at, shared_at + (axes - 1) / block.max(1) * block)
+            }
+            // Where there is room: when neither these axes nor those of another estimator have a turn.
+            _ => {
+                let after = if turn == 0 { 2 * axes } else { (2 * axes + 2).saturating_sub(turn) };
+                let shared_at = after.clamp(axes - 1, block - 1);
+                (shared_at, shared_at)
+            }
         };
         let mut events = 0_u32;
         if round > 16 {

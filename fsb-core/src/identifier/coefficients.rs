@@ -25,6 +25,10 @@ const SCALE_CHOICES: u32 = 512;
 /// position gives them cancel. It is 1e-26 of the physical unit.
 pub(crate) const KEEP_NORMAL: f32 = 1e-20;
 
+/// Added to the stages themselves now and then, where it is not added to the inputs. With 32 steps in between and the fastest
+/// decay, e^-32, what is left is normal; with the slowest the stages settle at 1e-17.
+pub(crate) const KEEP_NORMAL_AT_FOLD: f32 = 1e-23;
+
 /// Constants of an identifier: a tuning at the period at which it is stepped.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -88,7 +92,7 @@ impl IdentifierDesign {
     }
 
     pub(crate) const fn stage(&self) -> Stage {
-        Stage { c: self.c, scale: self.scale }
+        Stage { c: self.c }
     }
 
     /// The square of the scale: by how much sums of products are larger than in physical units.
@@ -124,14 +128,14 @@ pub struct Coefficients {
     pub(crate) b2: f32,
     /// Weight of y in the first stage; w̄3 of (41).
     pub(crate) b3: f32,
-    /// g\[n-1\], the weight of S in the input cascade.
+    /// g\[n-1\], the weight of S in the input cascade; scaled.
     pub(crate) g: f32,
     /// c p g\[n\]/(T²p²), the weight of y\[n\] - y\[n-1\] in the identity filtered once ([`super::FreeState`]).
     pub(crate) slope: f32,
 }
 
 impl Coefficients {
-    /// The weights at the window's sample. Cost: 22 operations, no division.
+    /// The weights at the window's sample. Cost: 23 operations, no division.
     pub fn at(window: &Window, design: &IdentifierDesign) -> Self {
         let w = window.neighbours(&design.window);
         Self {
@@ -140,7 +144,7 @@ impl Coefficients {
             b3: design.b3_start * (w.e * (design.rho * w.e - w.h))
                 + design.b3_mixed * (w.h * w.e)
                 + design.b1 * w.g_before,
-            g: w.g_before,
+            g: design.scale * w.g_before,
             slope: design.slope * (w.h * w.h_next),
         }
     }

@@ -16,7 +16,7 @@ impl UnitChain {
     #[inline(always)]
     pub fn step(&mut self, design: &IdentifierDesign, at: &Coefficients) {
         let c = design.c;
-        self.u3.add_folded(c * (at.g * design.scale - self.u3.value()));
+        self.u3.add_folded(c * (at.g - self.u3.value()));
         self.u2.add_folded(c * (self.u3.value() - self.u2.value()));
         self.u1.add_folded(c * (self.u2.value() - self.u1.value()));
     }

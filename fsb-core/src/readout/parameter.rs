@@ -227,7 +227,7 @@ impl ParameterState {
             let rounding = Self::ROUNDING * quotient;
             let variance = (variance / information) * (scale2 / information) + (pull * pull + rounding * rounding);
             // Rounding can take a sum of next to nothing below zero; no quotient yet makes it infinite.
-            let variance = if variance >= 0.0 && variance.is_finite() { variance } else { f32::MAX };
+            let variance = if (0.0..=f32::MAX).contains(&variance) { variance } else { f32::MAX };
             *(if self.is_held() { &mut self.fresh.variance } else { &mut self.variance }) = variance;
         }
     }

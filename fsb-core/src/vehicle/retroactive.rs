@@ -45,7 +45,7 @@ impl Chain {
         let s = if view.per_length == 1.0 { mean } else { 0.5 * (mean + self.before) };
         self.before = mean;
         let [x4, x5, x6] = &mut self.x;
-        *x6 += view.c * (view.weight * (s * view.scale) - *x6);
+        *x6 += view.c * (view.weight * s - *x6);
         *x5 += view.c * (*x6 - *x5);
         *x4 += view.c * (*x5 - *x4);
         *x4
