@@ -37,7 +37,7 @@ use compare::{Tolerance, same};
 use measured::Measured;
 
 /// The documents that hold blocks.
-const DOCUMENTS: &[&str] = &["README.md", "fsb-core/README.md", "docs/robustness.md"];
+const DOCUMENTS: &[&str] = &["README.md", "fsb-core/README.md", "docs/design.md", "docs/robustness.md"];
 
 /// Compares every block with what the commands print now; with `--write` on the command line it is written instead.
 pub fn run() -> Result<()> {
@@ -90,6 +90,7 @@ fn content(block: &Block, measured: &Measured) -> Result<Option<(String, Toleran
         "bursts" => Some((faults::bursts(&measured.faults["bursts"])?, Tolerance::LastDigit)),
         "jitter" => Some((faults::jitter(&measured.faults["jitter"])?, Tolerance::LastDigit)),
         "cost" => Some((budgets::table()?, Tolerance::None)),
+        "kinds" => Some((budgets::kinds()?, Tolerance::None)),
         "fly" => Some((fly::scenarios()?, Tolerance::LastDigit)),
         "fly-random" => Some((fly::random()?, Tolerance::LastDigit)),
         "drag" => flights::drag()?.map(|table| (table, Tolerance::LastDigit)),

@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn the_committed_file_is_readable() {
         let text = fs::read_to_string(root().unwrap().join(FILE)).unwrap();
-        for group in ["c", "cost", "cycles", "size"] {
+        for group in ["c", "cost", "cycles", "kinds", "size"] {
             let budgets = parse(&text, group).unwrap();
             assert!(!budgets.is_empty());
             assert!(budgets.values().all(|budget| budget.budget <= with_margin(budget.measured)));

@@ -1,5 +1,5 @@
 //! What a tick costs: instructions, counted by the emulator over a minute; cycles, by the published table over the traced
-//! first second and a half; and the instructions of the crates that others would use.
+//! first second and a half; what the instructions are for; and the instructions of the crates that others would use.
 
 use std::path::Path;
 
@@ -45,9 +45,12 @@ pub fn run() -> Result<()> {
         "instructions a tick over a minute (vehicle and drag: half of one); a tick is measure and apply, states and parameters are read beside it"
     );
     let instructions = budgets::check("cost", &counted);
-    let cycles = budgets::check("cycles", &cycles(&program)?);
+    let (cycles, kinds) = traced(&program)?;
+    let cycles = budgets::check("cycles", &cycles);
+    println!("what the instructions are for, the mean over the first 1.5 s");
+    let kinds = budgets::check("kinds", &kinds);
     peers()?;
-    instructions.and(cycles)
+    instructions.and(cycles).and(kinds)
 }
 
 /// `name mean 12.34 worst 20 tick 7`
@@ -64,9 +67,10 @@ fn parse(lines: &[String]) -> Result<Measured> {
     Ok(measured)
 }
 
-fn cycles(program: &Path) -> Result<Measured> {
+/// Cycles, and what the instructions are for.
+fn traced(program: &Path) -> Result<(Measured, Measured)> {
     let listing = Listing::of(program)?;
-    let mut measured = Vec::new();
+    let (mut cycles, mut kinds) = (Measured::new(), Measured::new());
     println!("cycles by the table (ARM 100166): the fewest it allows, and the most, which have the budget");
     for Trace { argument, name, roots, others } in TRACES {
         let ticks = trace::ticks(program, &listing, argument, roots, others)?;
@@ -85,10 +89,14 @@ fn cycles(program: &Path) -> Result<Measured> {
             worst.cycles.fewest,
             worst.cycles.most,
         );
-        measured.push((format!("{name}_mean"), mean(&|tick| tick.cycles.most)));
-        measured.push((format!("{name}_worst"), f64::from(worst.cycles.most)));
+        cycles.push((format!("{name}_mean"), mean(&|tick| tick.cycles.most)));
+        cycles.push((format!("{name}_worst"), f64::from(worst.cycles.most)));
+        kinds.push((format!("{name}_arithmetic"), mean(&|tick| tick.kinds.arithmetic)));
+        kinds.push((format!("{name}_loads"), mean(&|tick| tick.kinds.loads)));
+        kinds.push((format!("{name}_stores"), mean(&|tick| tick.kinds.stores)));
+        kinds.push((format!("{name}_rest"), mean(&|tick| tick.kinds.rest)));
     }
-    Ok(measured)
+    Ok((cycles, kinds))
 }
 
 /// For comparison only: no budget.

@@ -16,6 +16,37 @@ pub struct Tick {
     pub instructions: u32,
     /// By the table.
     pub cycles: Cycles,
+    /// What the instructions are for.
+    pub kinds: Kinds,
+}
+
+/// Instructions by what they are for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Kinds {
+    /// From memory into registers.
+    pub loads: u32,
+    /// From registers into memory.
+    pub stores: u32,
+    /// Of floating point: sums, products, quotients, magnitudes.
+    pub arithmetic: u32,
+    /// Comparisons, branches, calls, integers.
+    pub rest: u32,
+}
+
+impl Kinds {
+    fn count(&mut self, mnemonic: &str) {
+        let starts = |names: &[&str]| names.iter().any(|name| mnemonic.starts_with(name));
+        let counter = if starts(&["ldr", "ldm", "vldr", "vldm", "pop", "vpop"]) {
+            &mut self.loads
+        } else if starts(&["str", "stm", "vstr", "vstm", "push", "vpush"]) {
+            &mut self.stores
+        } else if starts(&["vadd", "vsub", "vmul", "vnmul", "vdiv", "vabs", "vneg", "vsqrt"]) {
+            &mut self.arithmetic
+        } else {
+            &mut self.rest
+        };
+        *counter += 1;
+    }
 }
 
 /// Runs `program` with `argument` and follows it through the functions reachable from `roots`. A tick is what is between
@@ -51,6 +82,7 @@ pub fn ticks(program: &Path, listing: &Listing, argument: &str, roots: &[&str], 
         let left = next.is_none_or(|next| entries.contains(&next) || excluded.contains(&next));
         let following = next.filter(|_| !left).and_then(|next| code.get(&next)).map(|(instruction, _)| *instruction);
         tick.instructions += 1;
+        tick.kinds.count(&instruction.mnemonic);
         tick.cycles += cycles::of(instruction, left || next != *after, following);
         Ok(())
     };
@@ -85,6 +117,17 @@ fn address(line: &str) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn kinds_of_instructions() {
+        let mut kinds = Kinds::default();
+        for mnemonic in
+            ["vldr", "ldrb.w", "pop", "vstr", "strd", "vadd.f32", "vdiv.f32", "vcmp.f32", "bl", "adds", "vmov.f32"]
+        {
+            kinds.count(mnemonic);
+        }
+        assert_eq!(kinds, Kinds { loads: 3, stores: 2, arithmetic: 2, rest: 4 });
+    }
 
     #[test]
     fn log_lines() {
