@@ -47,7 +47,7 @@ impl Schedule {
             // Where there is room: when neither these axes nor those of another estimator have a turn.
             _ => {
                 let after = if turn == 0 { 2 * axes } else { (2 * axes + 2).saturating_sub(turn) };
-                let shared_at = after.clamp(axes - 1, block - 1);
+                let shared_at = after.max(axes - 1).min(block - 1);
                 (shared_at, shared_at)
             }
         };
