@@ -126,11 +126,12 @@ impl Axis {
         if clock.blocks > 2 * covariance.steps {
             let step = self.observer.innovation() - self.innovation_before;
             // With the quotient of this very moment: the one read last may be from before the take-off.
+            let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
             let residual = z2 - parameter.ratio.quotient() * z0;
             self.noise.add(
                 step * step * common.innovation_to_mean,
-                residual * residual * clock.to_mean,
-                z2 * z2 * clock.to_mean,
+                residual * residual * to_mean,
+                z2 * z2 * to_mean,
                 covariance.noise_memory,
             );
         }

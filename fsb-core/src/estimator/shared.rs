@@ -111,8 +111,6 @@ pub(super) struct IdentifierClock {
     pub at: Coefficients,
     pub unit: UnitChain,
     pub shape: NoiseShape,
-    /// D over P₁₁, scaled: from the square of a residual to the variance of a mean.
-    pub to_mean: f32,
     /// The present measurement's place in the round.
     pub position: u32,
     /// The measurement count at which the identification began or begins.
@@ -132,7 +130,6 @@ impl IdentifierClock {
             at: Coefficients::default(),
             unit: UnitChain::default(),
             shape: NoiseShape::START,
-            to_mean: 0.0,
             position: 0,
             began,
             blocks: 0,
@@ -157,7 +154,6 @@ impl IdentifierClock {
         self.stride = if self.blocks == 0 || self.stride >= last { 0 } else { self.stride + 1 };
         if self.stride == 0 {
             self.shape.step(&self.window, &common.covariance);
-            self.to_mean = common.covariance.stride / (self.shape.variance() * identifier.scale2());
         }
         if !self.settled {
             self.at = Coefficients::at(&self.window, identifier);
@@ -172,7 +168,7 @@ impl IdentifierClock {
 }
 
 stored!(ObserverClock { window, gains, count, until, striding });
-stored!(IdentifierClock { window, at, unit, shape, to_mean, position, began, blocks, stride, settled });
+stored!(IdentifierClock { window, at, unit, shape, position, began, blocks, stride, settled });
 
 impl ObserverClock {
     /// Whether its numbers are possible.
