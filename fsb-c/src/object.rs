@@ -5,7 +5,8 @@
 //! is the contract of every function here: a pointer is NULL, misaligned, or leads to as many values of its type as the
 //! function says, which nobody else uses (for reading only: changes) during the call.
 
-use core::ffi::{CStr, c_char};
+use core::ffi::c_char;
+use core::mem::MaybeUninit;
 
 use crate::status::{FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_NULL_POINTER, FSB_OK, fsb_status_t};
 use crate::version::FSB_VERSION;
@@ -63,9 +64,9 @@ unsafe fn marked<O: Object>(object: *const O) -> Result<(), fsb_status_t> {
 ///
 /// # Safety
 /// The contract of this module, for one O.
-pub(crate) unsafe fn read<O: Object, R>(
+pub(crate) unsafe fn read<'a, O: Object<Value: 'a>, R>(
     object: *const O,
-    with: impl FnOnce(&O::Value) -> R,
+    with: impl FnOnce(&'a O::Value) -> R,
 ) -> Result<R, fsb_status_t> {
     // SAFETY: the same contract.
     unsafe { marked(object) }?;
@@ -112,6 +113,48 @@ pub(crate) unsafe fn start<O: Object>(
     }
 }
 
+/// A new value put into the storage, and the place for the mark that makes it an object; until then it is marked as none.
+///
+/// # Safety
+/// The contract of this module, for one O.
+pub(crate) unsafe fn place<'a, O: Object>(
+    object: *mut O,
+    make: impl FnOnce() -> O::Value,
+) -> Result<(&'a mut O::Value, Mark<'a>), fsb_status_t> {
+    checked(object.cast_const())?;
+    let object = object.cast::<Marked<O::Value>>();
+    // SAFETY: not NULL, in the caller's storage, aligned for the value and large enough (`check_storage`).
+    let marked = unsafe {
+        (&raw mut (*object).mark).write([0; 2]);
+        (&raw mut (*object).value).write(make());
+        &mut *object
+    };
+    Ok((&mut marked.value, Mark { place: &mut marked.mark, mark: mark::<O>() }))
+}
+
+/// The mark of an object, and where it belongs.
+pub(crate) struct Mark<'a> {
+    place: &'a mut [u32; 2],
+    mark: [u32; 2],
+}
+
+impl Mark<'_> {
+    /// From now on it is an object.
+    pub(crate) fn put(self) {
+        *self.place = self.mark;
+    }
+}
+
+/// The caller's value, to be read.
+///
+/// # Safety
+/// The contract of this module, for one T that nobody changes during the call; any bits will do for it.
+pub(crate) unsafe fn borrow<'a, T>(from: *const T) -> Result<&'a T, fsb_status_t> {
+    checked(from)?;
+    // SAFETY: not NULL, aligned, and a value stands there.
+    Ok(unsafe { &*from })
+}
+
 /// Copies N values from the caller.
 ///
 /// # Safety
@@ -143,14 +186,24 @@ pub(crate) unsafe fn give<T: Copy, const N: usize>(
     status
 }
 
+/// Room for `count` values of the caller.
+///
+/// # Safety
+/// The contract of this module, for so many values of T.
+pub(crate) unsafe fn room<'a, T: Copy>(to: *mut T, count: usize) -> Result<&'a mut [MaybeUninit<T>], fsb_status_t> {
+    checked(to.cast_const())?;
+    // SAFETY: not NULL, aligned, and there is room for so many values, which nobody else uses during the call.
+    Ok(unsafe { core::slice::from_raw_parts_mut(to.cast(), count) })
+}
+
 /// Hands out the name of a parameter, or NULL, where the caller gave a place for it.
 ///
 /// # Safety
 /// The contract of this module, for one pointer.
-pub(crate) unsafe fn name(parameter: *mut *const c_char, name: Option<&'static CStr>) {
+pub(crate) unsafe fn name(parameter: *mut *const c_char, name: *const c_char) {
     if checked(parameter.cast_const()).is_ok() {
         // SAFETY: not NULL, aligned, and there is room for a pointer.
-        unsafe { parameter.write(name.map_or(core::ptr::null(), CStr::as_ptr)) };
+        unsafe { parameter.write(name) };
     }
 }
 

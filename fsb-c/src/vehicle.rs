@@ -96,7 +96,7 @@ pub unsafe extern "C" fn fsb_vehicle_init(
     config: *const fsb_vehicle_config_t,
     parameter: *mut *const c_char,
 ) -> fsb_status_t {
-    let mut name = None;
+    let mut name = core::ptr::null();
     let outcome = object::start(vehicle, || {
         let [config] = take(config)?;
         let made = config.to_core().and_then(|(config, frame)| {
@@ -104,7 +104,7 @@ pub unsafe extern "C" fn fsb_vehicle_init(
             Ok(Vehicle { estimator, frame })
         });
         made.map_err(|(status, at)| {
-            name = Some(at);
+            name = at;
             status
         })
     });
