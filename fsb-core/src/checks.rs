@@ -36,7 +36,7 @@ impl Fault {
     }
 }
 
-/// The numbers that are right, ends included, and what the others are. Where `low` is zero, zero of either sign is right, too.
+/// The numbers that are right, ends included, and what the others are. Zero has no sign.
 ///
 /// To the precision of f32, in which a number is kept: one that is rounded to an end is right.
 #[derive(Clone, Copy, Debug)]
@@ -44,9 +44,7 @@ pub(crate) struct Range {
     low: f32,
     high: f32,
     not_finite: Fault,
-    /// Zero is right.
-    zero: bool,
-    /// Negative, or zero where that is not right.
+    /// Negative numbers; and zero, unless these are called negative.
     not_positive: Fault,
     below: Fault,
     above: Fault,
@@ -59,7 +57,6 @@ impl Range {
             low,
             high,
             not_finite: Fault::NonFinite,
-            zero: false,
             not_positive: Fault::NonPositive,
             below: Fault::OutOfRange,
             above: Fault::OutOfRange,
@@ -68,7 +65,7 @@ impl Range {
 
     /// Zero, and positive numbers.
     pub const fn from_zero(high: f32) -> Self {
-        Self { zero: true, not_positive: Fault::Negative, ..Self::positive(0.0, high) }
+        Self { not_positive: Fault::Negative, ..Self::positive(0.0, high) }
     }
 
     /// Any positive number.
@@ -99,7 +96,8 @@ impl Range {
         if !value.is_finite() {
             Some(self.not_finite)
         } else if value.magnitude() == Wide::ZERO || value.is_negative() {
-            if self.zero && value.magnitude() == Wide::ZERO { None } else { Some(self.not_positive) }
+            let right = matches!(self.not_positive, Fault::Negative) && value.magnitude() == Wide::ZERO;
+            if right { None } else { Some(self.not_positive) }
         } else if rounded < self.low {
             Some(self.below)
         } else if rounded > self.high {

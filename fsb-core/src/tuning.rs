@@ -7,6 +7,7 @@
 use crate::checks::{Checks, Range, Rule};
 use crate::error::ConfigError;
 use crate::wide::Wide;
+use core::hint::black_box;
 
 /// λ and q of the paper, (17) and (28). Plain data; checked where it is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,8 +29,9 @@ impl Tuning {
     /// Validates the tuning at `period`, in s; λ and q go by these names.
     #[inline(never)]
     pub(crate) fn checked(&self, period: Wide, names: &'static [&'static str; 2], checks: &mut Checks) {
-        checks.rate(names[0], Wide::new(self.lambda), period);
-        checks.rate(names[1], Wide::new(self.q), period);
+        let Self { lambda, q } = *black_box(self);
+        checks.rate(names[0], Wide::new(lambda), period);
+        checks.rate(names[1], Wide::new(q), period);
     }
 
     /// The decay over `period`, in s, of a tuning and a period that are called so.
@@ -45,8 +47,10 @@ impl Tuning {
     /// The decay over `period`, in s.
     #[inline(never)]
     pub(crate) fn decay(&self, period: Wide) -> Decay {
+        // By its address: handed over as two numbers it would cost more at every call than it does here.
+        let Self { lambda, q } = *black_box(self);
         let rounded = |rate: f64| decayed(Wide::new(rate) * period).as_rounded();
-        let (c, alpha) = (rounded(self.lambda), rounded(self.q));
+        let (c, alpha) = (rounded(lambda), rounded(q));
         let rho = Wide::ONE - alpha;
         Decay { period, c, p: Wide::ONE - c, alpha, rho, mixed: alpha + alpha.over(rho) }
     }

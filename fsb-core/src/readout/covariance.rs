@@ -18,6 +18,7 @@ use crate::snapshot::stored;
 use crate::tuning::{Tuning, decayed};
 use crate::wide::Wide;
 use crate::window::Window;
+use core::hint::black_box;
 
 /// Constants of the covariance recursion.
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +69,7 @@ impl CovarianceDesign {
     /// of a parameter.
     #[inline(never)]
     pub fn fill(&mut self, tuning: &Tuning, period: Wide, fading: Wide, sharing: u32) {
+        let tuning = black_box(tuning);
         let (lambda, q) = (Wide::new(tuning.lambda).rounded(), Wide::new(tuning.q).rounded());
         let fastest = if lambda > q { lambda } else { q };
         let strides = Self::COARSE / (fastest * period.rounded());
