@@ -6,9 +6,9 @@ use core::ffi::c_char;
 use fsb_core::Estimator;
 use fsb_core::estimator::Learning;
 
-use crate::config::{Configuration, FSB_LEARNING_CONTACT, FSB_LEARNING_OFF, FSB_LEARNING_ON, Refusal};
-use crate::object::{self, Object, borrow, change, take};
-use crate::status::{FSB_OK, FSB_OUT_OF_STEP, FSB_UNKNOWN_VALUE, fsb_status_t};
+use crate::config::{Configuration, FSB_LEARNING_CONTACT, FSB_LEARNING_OFF, FSB_LEARNING_ON};
+use crate::object::{self, Object, borrow, change, initialised, take, unnamed};
+use crate::status::{FSB_OUT_OF_STEP, FSB_UNKNOWN_VALUE, fsb_status_t};
 
 /// # Safety
 /// The rules at the top of fsb.h, here and below.
@@ -25,25 +25,10 @@ where
         unsafe { object::place(estimator, Estimator::unconfigured).and_then(|placed| Ok((placed, borrow(config)?))) };
     let outcome = match outcome {
         Ok(((estimator, mark), config)) => config.unshaped().give_to(estimator.configuring(), mark),
-        Err(status) => Err((status, core::ptr::null())),
+        Err(status) => Err(unnamed(status)),
     };
     // SAFETY: as above.
-    unsafe { refused(outcome, parameter) }
-}
-
-/// Hands out the status, and the name of the parameter at fault.
-///
-/// # Safety
-/// As [`init`].
-#[inline(never)]
-pub(crate) unsafe fn refused(outcome: Result<(), Refusal>, parameter: *mut *const c_char) -> fsb_status_t {
-    let (status, name) = match outcome {
-        Ok(()) => (FSB_OK, core::ptr::null()),
-        Err(refusal) => refusal,
-    };
-    // SAFETY: the pointer comes from the C caller, whose contract this is.
-    unsafe { object::name(parameter, name) };
-    status
+    unsafe { initialised(outcome, parameter) }
 }
 
 /// # Safety

@@ -8,6 +8,7 @@
 use core::ffi::c_char;
 use core::mem::MaybeUninit;
 
+use crate::config::Refusal;
 use crate::status::{FSB_MISALIGNED, FSB_NOT_INITIALISED, FSB_NULL_POINTER, FSB_OK, fsb_status_t};
 use crate::version::FSB_VERSION;
 
@@ -96,21 +97,26 @@ pub(crate) unsafe fn change<O: Object>(
 /// The contract of this module, for one O.
 pub(crate) unsafe fn start<O: Object>(
     object: *mut O,
-    make: impl FnOnce() -> Result<O::Value, fsb_status_t>,
-) -> Result<(), fsb_status_t> {
-    checked(object.cast_const())?;
+    make: impl FnOnce() -> Result<O::Value, Refusal>,
+) -> Result<(), Refusal> {
+    checked(object.cast_const()).map_err(unnamed)?;
     match make() {
         Ok(value) => {
             // SAFETY: not NULL, in the caller's storage, aligned for the value and large enough (`check_storage`).
             unsafe { object.cast::<Marked<O::Value>>().write(Marked { mark: mark::<O>(), value }) };
             Ok(())
         }
-        Err(status) => {
+        Err(refusal) => {
             // SAFETY: as above; the mark comes first.
             unsafe { object.cast::<[u32; 2]>().write([0; 2]) };
-            Err(status)
+            Err(refusal)
         }
     }
+}
+
+/// A refusal that no parameter of a configuration is the cause of.
+pub(crate) const fn unnamed(status: fsb_status_t) -> Refusal {
+    (status, core::ptr::null())
 }
 
 /// A new value put into the storage, and the place for the mark that makes it an object; until then it is marked as none.
@@ -196,15 +202,18 @@ pub(crate) unsafe fn room<'a, T: Copy>(to: *mut T, count: usize) -> Result<&'a m
     Ok(unsafe { core::slice::from_raw_parts_mut(to.cast(), count) })
 }
 
-/// Hands out the name of a parameter, or NULL, where the caller gave a place for it.
+/// The status of an initialisation. Hands out the name of the parameter at fault, or NULL, where the caller gave a place for it.
 ///
 /// # Safety
 /// The contract of this module, for one pointer.
-pub(crate) unsafe fn name(parameter: *mut *const c_char, name: *const c_char) {
+#[inline(never)]
+pub(crate) unsafe fn initialised(outcome: Result<(), Refusal>, parameter: *mut *const c_char) -> fsb_status_t {
+    let (status, name) = outcome.err().unwrap_or(unnamed(FSB_OK));
     if checked(parameter.cast_const()).is_ok() {
         // SAFETY: not NULL, aligned, and there is room for a pointer.
         unsafe { parameter.write(name) };
     }
+    status
 }
 
 /// The status of an outcome.

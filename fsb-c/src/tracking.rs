@@ -8,8 +8,7 @@ use fsb_core::control::{Reference, TrackingConfig, TrackingController, to_body};
 use fsb_core::estimator::AxisState;
 
 use crate::config::refusal;
-use crate::estimator as any;
-use crate::object::{self, Object, borrow, check_storage, give, read, take};
+use crate::object::{self, Object, borrow, check_storage, give, initialised, read, take, unnamed};
 use crate::status::{fsb_status_t, of_control};
 use crate::values::fsb_state_t;
 
@@ -78,13 +77,12 @@ pub unsafe extern "C" fn fsb_tracking_init(
     config: *const fsb_tracking_config_t,
     parameter: *mut *const c_char,
 ) -> fsb_status_t {
-    let mut refused = None;
     let outcome = object::start(controller, || {
-        let fsb_tracking_config_t { kp, kd, drift, k_min, k_max } = *borrow(config)?;
+        let fsb_tracking_config_t { kp, kd, drift, k_min, k_max } = *borrow(config).map_err(unnamed)?;
         let config = TrackingConfig { kp, kd, drift, parameter_min: k_min, parameter_max: k_max };
-        TrackingController::new(&config).map_err(|error| refused.insert(refusal(error)).0)
+        TrackingController::new(&config).map_err(refusal)
     });
-    any::refused(outcome.map_err(|status| refused.unwrap_or((status, core::ptr::null()))), parameter)
+    initialised(outcome, parameter)
 }
 
 /// Hands out the input [N or N m] that makes the axis follow `reference` from `state`: (acceleration - drift -
