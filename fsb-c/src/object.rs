@@ -23,19 +23,22 @@ pub(crate) trait Object {
 /// What stands in the storage. The mark comes first.
 #[repr(C)]
 pub(crate) struct Marked<V> {
-    mark: [u32; 2],
+    mark: u32,
     value: V,
 }
 
-/// "FSB" and the kind; the version, and the size, which differs between versions in development.
-const fn mark<O: Object>() -> [u32; 2] {
-    [0x4653_4200 | O::KIND, FSB_VERSION << 12 ^ size_of::<O::Value>() as u32]
+/// "FSB" and the kind, stirred with the version and the size, which differs between versions in development. One word: it is
+/// compared in every call.
+const fn mark<O: Object>() -> u32 {
+    let version = FSB_VERSION << 12 ^ size_of::<O::Value>() as u32;
+    (0x4653_4200 | O::KIND) ^ version.wrapping_mul(0x9e37_79b1)
 }
 
 /// Fails to compile where the value does not fit into the storage, or where the storage is more than twice the
 /// value's size.
 pub(crate) const fn check_storage<O: Object>(size: usize, alignment: usize) {
     assert!(size_of::<O>() == size && align_of::<O>() == alignment, "the constants of fsb.h are those of the storage");
+    assert!(mark::<O>() != 0, "that stands for no object");
     assert!(size_of::<Marked<O::Value>>() <= size, "the storage is too small");
     assert!(align_of::<Marked<O::Value>>() <= alignment, "the storage is not aligned enough");
     assert!(2 * size_of::<Marked<O::Value>>() >= size, "the storage is much larger than needed");
@@ -57,7 +60,7 @@ unsafe fn marked<O: Object>(object: *const O) -> Result<(), fsb_status_t> {
     checked(object)?;
     // SAFETY: not NULL, aligned, and in the caller's storage of O's size. Volatile, because a caller who forgot the
     // initialisation may have left anything in it.
-    let found = unsafe { object.cast::<[u32; 2]>().read_volatile() };
+    let found = unsafe { object.cast::<u32>().read_volatile() };
     if found == mark::<O>() { Ok(()) } else { Err(FSB_NOT_INITIALISED) }
 }
 
@@ -108,7 +111,7 @@ pub(crate) unsafe fn start<O: Object>(
         }
         Err(refusal) => {
             // SAFETY: as above; the mark comes first.
-            unsafe { object.cast::<[u32; 2]>().write([0; 2]) };
+            unsafe { object.cast::<u32>().write(0) };
             Err(refusal)
         }
     }
@@ -131,7 +134,7 @@ pub(crate) unsafe fn place<'a, O: Object>(
     let object = object.cast::<Marked<O::Value>>();
     // SAFETY: not NULL, in the caller's storage, aligned for the value and large enough (`check_storage`).
     let marked = unsafe {
-        (&raw mut (*object).mark).write([0; 2]);
+        (&raw mut (*object).mark).write(0);
         (&raw mut (*object).value).write(make());
         &mut *object
     };
@@ -140,8 +143,8 @@ pub(crate) unsafe fn place<'a, O: Object>(
 
 /// The mark of an object, and where it belongs.
 pub(crate) struct Mark<'a> {
-    place: &'a mut [u32; 2],
-    mark: [u32; 2],
+    place: &'a mut u32,
+    mark: u32,
 }
 
 impl Mark<'_> {
