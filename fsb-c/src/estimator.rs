@@ -7,7 +7,7 @@ use fsb_core::Estimator;
 use fsb_core::estimator::Learning;
 
 use crate::config::{Configuration, FSB_LEARNING_CONTACT, FSB_LEARNING_OFF, FSB_LEARNING_ON};
-use crate::object::{self, Object, borrow, change, initialised, take, unnamed};
+use crate::object::{self, Object, borrow, change, initialised, unnamed};
 use crate::status::{FSB_OUT_OF_STEP, FSB_UNKNOWN_VALUE, fsb_status_t};
 
 /// # Safety
@@ -103,7 +103,9 @@ where
     O: Object<Value = Estimator<N, P>>,
 {
     // SAFETY: the pointers come from the C caller, whose contract this is.
-    unsafe { change(estimator, |estimator| estimator.measure_raw(&take(position)?).map_err(|_| FSB_OUT_OF_STEP)) }
+    unsafe {
+        change(estimator, |estimator| estimator.measure_raw(borrow(position.cast())?).map_err(|_| FSB_OUT_OF_STEP))
+    }
 }
 
 /// # Safety
@@ -115,7 +117,7 @@ where
     // SAFETY: the pointers come from the C caller, whose contract this is.
     unsafe {
         change(estimator, |estimator| {
-            estimator.apply(&take(input)?);
+            estimator.apply(borrow(input.cast())?);
             Ok(())
         })
     }
@@ -134,7 +136,7 @@ where
     // SAFETY: the pointers come from the C caller, whose contract this is.
     unsafe {
         change(estimator, |estimator| {
-            estimator.apply_ramp(&take(from)?, &take(to)?);
+            estimator.apply_ramp(borrow(from.cast())?, borrow(to.cast())?);
             Ok(())
         })
     }

@@ -101,9 +101,9 @@ pub unsafe extern "C" fn fsb_tracking_input(
     input: *mut f32,
 ) -> fsb_status_t {
     give(input, f32::NAN, || {
-        let [fsb_reference_t { position, velocity, acceleration }] = take(reference)?;
+        let fsb_reference_t { position, velocity, acceleration } = *borrow(reference)?;
         let reference = Reference { position, velocity, acceleration };
-        let [fsb_state_t { position, velocity, .. }] = take(state)?;
+        let fsb_state_t { position, velocity, .. } = *borrow(state)?;
         let state = AxisState { position, velocity };
         let input = read(controller, |controller| controller.input(&reference, &state, k))?;
         Ok([input.map_err(of_control)?])

@@ -8,7 +8,7 @@ use fsb_core::estimator::{AxisDiagnostics, AxisState, Counters, StateStatus};
 use fsb_core::readout::{Parameter, ParameterStatus};
 
 use crate::names;
-use crate::object::{give, take};
+use crate::object::{borrow, give};
 use crate::status::{FSB_NOT_VALID, fsb_status_t};
 
 /// Whether a position and a velocity may be used, and why not. Usable is whatever is FSB_STATE_NOMINAL or more.
@@ -245,7 +245,7 @@ pub unsafe extern "C" fn fsb_parameter_report(
     report: *mut fsb_parameter_report_t,
 ) -> fsb_status_t {
     give(report, fsb_parameter_report_t::INVALID, || {
-        let [fsb_parameter_t { k: value, variance, status }] = take(parameter)?;
+        let fsb_parameter_t { k: value, variance, status } = *borrow(parameter)?;
         if status < FSB_PARAMETER_VALID {
             return Err(FSB_NOT_VALID);
         }
