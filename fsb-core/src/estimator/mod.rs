@@ -53,7 +53,7 @@ use crate::error::ConfigError;
 use crate::readout::ParameterState;
 use axis::Axis;
 use config::or_nan;
-use design::{Common, Shape};
+use design::Shape;
 use parts::{Frame, Parts};
 use shared::Progress;
 
@@ -99,14 +99,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Of no use before it is configured: for storage that is there already, see [`configuring`](Self::configuring).
     #[inline(always)]
     pub fn unconfigured() -> Self {
-        Self {
-            frame: Frame {
-                progress: Progress::start(&Common::BLANK),
-                axes: [Axis::default(); N],
-                common: Common::BLANK,
-            },
-            parameters: [ParameterState::BLANK; P],
-        }
+        Self { frame: Frame::blank(), parameters: [ParameterState::BLANK; P] }
     }
 
     /// Validates a configuration part by part, and starts empty: what [`new`](Self::new) does, in place.

@@ -15,6 +15,14 @@ pub(super) struct Frame<A: ?Sized> {
     pub axes: A,
 }
 
+impl<const N: usize> Frame<[Axis; N]> {
+    /// Before it is configured.
+    #[inline(never)]
+    pub fn blank() -> Self {
+        Self { progress: Progress::start(&Common::BLANK), axes: [Axis::default(); N], common: Common::BLANK }
+    }
+}
+
 /// Borrowed from an estimator.
 pub(super) struct Parts<'a> {
     pub frame: &'a mut Frame<[Axis]>,
