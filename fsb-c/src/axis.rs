@@ -9,6 +9,7 @@ use fsb_core::Estimator;
 use crate::config::{fsb_rule_t, fsb_tuning_t};
 use crate::estimator as any;
 use crate::object::{Object, check_storage};
+use crate::readings;
 use crate::status::fsb_status_t;
 use crate::values::{fsb_counters_t, fsb_diagnostics_t, fsb_parameter_t, fsb_state_sd_t, fsb_state_t};
 
@@ -96,7 +97,7 @@ pub unsafe extern "C" fn fsb_axis_init(
     config: *const fsb_axis_config_t,
     parameter: *mut *const c_char,
 ) -> fsb_status_t {
-    any::init(estimator, config, parameter, fsb_axis_config_t::to_core)
+    any::init(estimator, config, parameter)
 }
 
 /// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
@@ -167,14 +168,14 @@ pub unsafe extern "C" fn fsb_axis_apply_ramp(
 /// written. For the tick.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_axis_state(estimator: *const fsb_axis_t, state: *mut fsb_state_t) -> fsb_status_t {
-    any::states(estimator, state)
+    readings::states(estimator, state)
 }
 
 /// Hands out the standard deviations of the state that measurement noise causes; NaN until the noise is known.
 /// Errors as fsb_axis_state. Uses square roots: for logs, not for the tick.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_axis_state_sd(estimator: *const fsb_axis_t, sd: *mut fsb_state_sd_t) -> fsb_status_t {
-    any::state_sd(estimator, sd)
+    readings::state_sd(estimator, sd)
 }
 
 /// Hands out the parameter. What is not valid is NaN and its `status` says why. Errors as fsb_axis_state. For
@@ -184,7 +185,7 @@ pub unsafe extern "C" fn fsb_axis_parameter(
     estimator: *const fsb_axis_t,
     parameter: *mut fsb_parameter_t,
 ) -> fsb_status_t {
-    any::parameters(estimator, parameter)
+    readings::parameters(estimator, parameter)
 }
 
 /// Hands out what was missed or rejected. Errors as fsb_axis_state; the counters are zero then. For the tick.
@@ -193,7 +194,7 @@ pub unsafe extern "C" fn fsb_axis_counters(
     estimator: *const fsb_axis_t,
     counters: *mut fsb_counters_t,
 ) -> fsb_status_t {
-    any::counters(estimator, counters)
+    readings::counters(estimator, counters)
 }
 
 /// Hands out inner signals, for logs and tests. Errors as fsb_axis_state. Not for the tick: divisions.
@@ -202,5 +203,5 @@ pub unsafe extern "C" fn fsb_axis_diagnostics(
     estimator: *const fsb_axis_t,
     diagnostics: *mut fsb_diagnostics_t,
 ) -> fsb_status_t {
-    any::diagnostics(estimator, diagnostics)
+    readings::diagnostics(estimator, diagnostics)
 }

@@ -1,13 +1,18 @@
 //! What the configurations have in common, and the names of their parameters.
 
-use core::ffi::CStr;
+use core::ffi::c_char;
+use core::hint::black_box;
+use core::mem::{MaybeUninit, offset_of};
 
-use fsb_core::readout::{Memory, ParameterRule, Readout};
+use fsb_core::error::NAMES;
+use fsb_core::estimator::{Configuring, SharedConfig};
+use fsb_core::readout::ParameterRule;
 use fsb_core::{ConfigError, EstimatorConfig, Tuning};
 
 use crate::axis::fsb_axis_config_t;
+use crate::object::Mark;
 use crate::rotation::fsb_rotation_config_t;
-use crate::status::{FSB_CONFIG_OUT_OF_RANGE, fsb_status_t, of_config};
+use crate::status::{fsb_status_t, of_config};
 use crate::translation::fsb_translation_config_t;
 
 /// k = sum(z2 z0) / sum(z0^2): keeps the sign of k, close to the best possible. The default.
@@ -47,134 +52,137 @@ pub struct fsb_rule_t {
 }
 
 /// A refused configuration: the code, and the name of the parameter as it is written in C.
-pub(crate) type Refusal = (fsb_status_t, &'static CStr);
+pub(crate) type Refusal = (fsb_status_t, *const c_char);
 
+#[inline(never)]
 pub(crate) fn refusal(error: ConfigError) -> Refusal {
-    (of_config(error), c_name(error.parameter()))
+    (of_config(error), named(error.parameter()))
 }
 
-/// The core's name of a parameter, as C text and as the field is called in the C structures.
-fn c_name(name: &str) -> &'static CStr {
-    match name {
-        "period" => c"period",
-        "substeps" => c"substeps",
-        "block" => c"block",
-        "turn" => c"turn",
-        "identifier.lambda" => c"identifier.lambda",
-        "identifier.q" => c"identifier.q",
-        "observer.lambda" => c"observer.lambda",
-        "observer.q" => c"observer.q",
-        "noise_sd" => c"noise_sd",
-        "memory.tau" => c"memory_tau",
-        "drift" => c"drift",
-        "nominal" => c"nominal",
-        "rule.min" => c"rule.min",
-        "rule.max" => c"rule.max",
-        "rule.max_relative_sd" => c"rule.max_relative_sd",
-        "max_misfit" => c"max_misfit",
-        "parameter_settle" => c"parameter_settle",
-        "state_settle" => c"state_settle",
-        "position_limit" => c"position_limit",
-        "input_limit" => c"input_limit",
-        "kp" => c"kp",
-        "kd" => c"kd",
-        "parameter_min" => c"k_min",
-        "parameter_max" => c"k_max",
-        _ => c"configuration",
+/// The name of a parameter as C text.
+fn named(name: &str) -> *const c_char {
+    let all = NAMES.as_bytes();
+    // Where it is not one of these it is out of all bounds.
+    let start = name.as_ptr().addr().wrapping_sub(all.as_ptr().addr());
+    match all.get(start.wrapping_add(name.len()).wrapping_add(1)..) {
+        Some([b'=', other @ ..]) => other.as_ptr().cast(),
+        Some(_) => all.as_ptr().wrapping_add(start).cast(),
+        None => c"configuration".as_ptr(),
     }
 }
 
-/// A field of the C structure: one number for one axis, an array for three.
-trait Lanes<T, const N: usize> {
-    fn to_array(self) -> [T; N];
-    fn from_array(array: [T; N]) -> Self;
-}
-
-impl<T> Lanes<T, 1> for T {
-    fn to_array(self) -> [T; 1] {
-        [self]
-    }
-    fn from_array([one]: [T; 1]) -> Self {
-        one
+/// The defaults of the core, for a control period.
+#[inline(never)]
+fn defaults(period: f64, shared: &mut MaybeUninit<SharedConfig>, rules: &mut [MaybeUninit<ParameterRule>]) {
+    shared.write(EstimatorConfig::<1, 1>::new(period).shared());
+    // The compiler is not to write this out three times.
+    for rule in black_box(rules) {
+        rule.write(ParameterRule::DEFAULT);
     }
 }
 
-impl<T> Lanes<T, 3> for [T; 3] {
-    fn to_array(self) -> [T; 3] {
-        self
-    }
-    fn from_array(array: [T; 3]) -> Self {
-        array
-    }
+/// A configuration of an estimator without its shape.
+#[derive(Clone, Copy)]
+pub(crate) struct Unshaped<'a> {
+    shared: &'a SharedConfig,
+    drift: &'a [f64],
+    nominal: &'a [f64],
+    rule: &'a [ParameterRule],
 }
 
-macro_rules! conversions {
-    ($config:ident, $axes:literal, $parameters:literal) => {
-        impl $config {
-            pub(crate) fn new(period: f64) -> Self {
-                let of = EstimatorConfig::<$axes, $parameters>::new(period);
-                Self {
-                    period: of.period,
-                    substeps: of.substeps,
-                    block: of.block,
-                    turn: of.turn,
-                    readout: match of.readout {
-                        Readout::AbsoluteRatio => FSB_READOUT_ABSOLUTE_RATIO,
-                        _ => FSB_READOUT_LEAST_SQUARES,
-                    },
-                    identifier: of.identifier.into(),
-                    observer: of.observer.into(),
-                    noise_sd: of.noise_sd.unwrap_or(f64::NAN),
-                    memory_tau: match of.memory {
-                        Memory::Fading { tau } => tau,
-                        _ => f64::INFINITY,
-                    },
-                    max_misfit: of.max_misfit.unwrap_or(f64::NAN),
-                    parameter_settle: of.parameter_settle,
-                    state_settle: of.state_settle,
-                    position_limit: of.position_limit,
-                    input_limit: of.input_limit,
-                    drift: Lanes::<f64, $axes>::from_array(of.drift),
-                    nominal: Lanes::<f64, $parameters>::from_array(of.nominal.map(|k| k.unwrap_or(f64::NAN))),
-                    rule: Lanes::<fsb_rule_t, $parameters>::from_array(of.rule.map(fsb_rule_t::from)),
-                }
-            }
-
-            pub(crate) fn to_core(self) -> Result<EstimatorConfig<$axes, $parameters>, Refusal> {
-                let readout = match self.readout {
-                    FSB_READOUT_LEAST_SQUARES => Readout::LeastSquares,
-                    FSB_READOUT_ABSOLUTE_RATIO => Readout::AbsoluteRatio,
-                    _ => return Err((FSB_CONFIG_OUT_OF_RANGE, c"readout")),
-                };
-                let tau = self.memory_tau;
-                let memory = if tau == f64::INFINITY { Memory::Infinite } else { Memory::Fading { tau } };
-                Ok(EstimatorConfig {
-                    period: self.period,
-                    substeps: self.substeps,
-                    block: self.block,
-                    turn: self.turn,
-                    identifier: self.identifier.into(),
-                    observer: self.observer.into(),
-                    noise_sd: known(self.noise_sd),
-                    readout,
-                    memory,
-                    drift: Lanes::<f64, $axes>::to_array(self.drift),
-                    nominal: Lanes::<f64, $parameters>::to_array(self.nominal).map(known),
-                    rule: Lanes::<fsb_rule_t, $parameters>::to_array(self.rule).map(ParameterRule::from),
-                    max_misfit: known(self.max_misfit),
-                    parameter_settle: self.parameter_settle,
-                    state_settle: self.state_settle,
-                    position_limit: self.position_limit,
-                    input_limit: self.input_limit,
-                })
-            }
+impl Unshaped<'_> {
+    /// Configures an estimator of the same shape; an object comes of it where nothing is wrong.
+    #[inline(never)]
+    pub(crate) fn give_to(&self, mut estimator: Configuring<'_>, mark: Mark<'_>) -> Result<(), Refusal> {
+        estimator.shared(self.shared);
+        for (axis, drift) in self.drift.iter().enumerate() {
+            estimator.drift(axis, *drift);
         }
+        for (index, (nominal, rule)) in self.nominal.iter().zip(self.rule).enumerate() {
+            estimator.parameter(index, *nominal, rule);
+        }
+        estimator.finish().map_err(refusal)?;
+        mark.put();
+        Ok(())
+    }
+}
+
+/// A configuration of an estimator, of the C interface.
+pub(crate) trait Configuration {
+    fn unshaped(&self) -> Unshaped<'_>;
+}
+
+/// Fails to compile where a structure of C is not that of the core.
+macro_rules! same {
+    ($c:ty, $core:ty, [$($field:ident),+ $(,)?]) => {
+        $(assert!(offset_of!($c, $field) == offset_of!($core, $field));)+
+        assert!(align_of::<$c>() == align_of::<$core>());
     };
 }
 
-conversions!(fsb_axis_config_t, 1, 1);
-conversions!(fsb_translation_config_t, 3, 1);
-conversions!(fsb_rotation_config_t, 3, 3);
+const _: () = {
+    same!(fsb_tuning_t, Tuning, [lambda, q]);
+    same!(fsb_rule_t, ParameterRule, [min, max, max_relative_sd]);
+    assert!(size_of::<fsb_rule_t>() == size_of::<ParameterRule>());
+    assert!(FSB_READOUT_LEAST_SQUARES == 0 && FSB_READOUT_ABSOLUTE_RATIO == 1);
+};
+
+macro_rules! configurations {
+    ($($config:ident, $axes:literal, $parameters:literal, $drift:expr, $nominal:expr;)+) => {
+        $(
+            const _: () = {
+                same!($config, SharedConfig, [
+                    period, substeps, block, turn, readout, identifier, observer, noise_sd, memory_tau, max_misfit,
+                    parameter_settle, state_settle, position_limit, input_limit,
+                ]);
+                assert!(offset_of!($config, drift) == size_of::<SharedConfig>());
+                assert!(offset_of!($config, nominal) == offset_of!($config, drift) + $axes * size_of::<f64>());
+                assert!(offset_of!($config, rule) == offset_of!($config, nominal) + $parameters * size_of::<f64>());
+                assert!(size_of::<$config>() == offset_of!($config, rule) + $parameters * size_of::<fsb_rule_t>());
+            };
+
+            impl $config {
+                pub(crate) fn new(period: f64) -> Self {
+                    let mut config = MaybeUninit::<Self>::uninit();
+                    let to = config.as_mut_ptr();
+                    // SAFETY: the numbers of the core's structures stand at the same places in these, as is asserted above, a
+                    // field is one value or an array of them, and all fields are written.
+                    unsafe {
+                        let rules = (&raw mut (*to).rule).cast();
+                        defaults(period, &mut *to.cast(), core::slice::from_raw_parts_mut(rules, $parameters));
+                        (&raw mut (*to).drift).write($drift);
+                        (&raw mut (*to).nominal).write($nominal);
+                        config.assume_init()
+                    }
+                }
+            }
+
+            impl Configuration for $config {
+                fn unshaped(&self) -> Unshaped<'_> {
+                    let drift = core::ptr::from_ref(&self.drift).cast();
+                    let nominal = core::ptr::from_ref(&self.nominal).cast();
+                    let rule = core::ptr::from_ref(&self.rule).cast();
+                    // SAFETY: the numbers of the core's structures stand at the same places in these, as is asserted above, and
+                    // a field is one value or an array of them.
+                    unsafe {
+                        Unshaped {
+                            shared: &*core::ptr::from_ref(self).cast(),
+                            drift: core::slice::from_raw_parts(drift, $axes),
+                            nominal: core::slice::from_raw_parts(nominal, $parameters),
+                            rule: core::slice::from_raw_parts(rule, $parameters),
+                        }
+                    }
+                }
+            }
+        )+
+    };
+}
+
+configurations! {
+    fsb_axis_config_t, 1, 1, 0.0, f64::NAN;
+    fsb_translation_config_t, 3, 1, [0.0; 3], f64::NAN;
+    fsb_rotation_config_t, 3, 3, [0.0; 3], [f64::NAN; 3];
+}
 
 /// NaN stands for a value that is not known.
 pub(crate) fn known(value: f64) -> Option<f64> {
@@ -190,17 +198,5 @@ impl From<Tuning> for fsb_tuning_t {
 impl From<fsb_tuning_t> for Tuning {
     fn from(fsb_tuning_t { lambda, q }: fsb_tuning_t) -> Self {
         Self { lambda, q }
-    }
-}
-
-impl From<ParameterRule> for fsb_rule_t {
-    fn from(ParameterRule { min, max, max_relative_sd }: ParameterRule) -> Self {
-        Self { min, max, max_relative_sd }
-    }
-}
-
-impl From<fsb_rule_t> for ParameterRule {
-    fn from(fsb_rule_t { min, max, max_relative_sd }: fsb_rule_t) -> Self {
-        Self { min, max, max_relative_sd }
     }
 }

@@ -8,8 +8,10 @@
 //! |---|---|
 //! | `object` | caller-owned storage, and every check on a pointer |
 //! | `status` | status codes and their names |
+//! | `names` | names as C texts |
 //! | `config` | what the configurations have in common, and the names of their parameters |
 //! | `estimator` | what can be done with an estimator of any shape |
+//! | `readings` | what any of them hands out |
 //! | `values` | what goes in and out |
 //! | `axis`, `translation`, `rotation` | the C functions of the three estimators |
 //! | `vehicle` | the C functions of the estimator in six degrees of freedom |
@@ -24,9 +26,11 @@
 pub mod axis;
 pub mod config;
 mod estimator;
+mod names;
 mod object;
 #[cfg(target_os = "none")]
 mod panic;
+mod readings;
 pub mod rotation;
 pub mod status;
 pub mod tracking;

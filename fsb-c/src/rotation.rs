@@ -9,6 +9,7 @@ use fsb_core::Estimator;
 use crate::config::{fsb_rule_t, fsb_tuning_t};
 use crate::estimator as any;
 use crate::object::{Object, check_storage};
+use crate::readings;
 use crate::status::fsb_status_t;
 use crate::values::{fsb_counters_t, fsb_diagnostics_t, fsb_parameter_t, fsb_state_sd_t, fsb_state_t};
 
@@ -97,7 +98,7 @@ pub unsafe extern "C" fn fsb_rotation_init(
     config: *const fsb_rotation_config_t,
     parameter: *mut *const c_char,
 ) -> fsb_status_t {
-    any::init(estimator, config, parameter, fsb_rotation_config_t::to_core)
+    any::init(estimator, config, parameter)
 }
 
 /// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
@@ -176,7 +177,7 @@ pub unsafe extern "C" fn fsb_rotation_states(
     estimator: *const fsb_rotation_t,
     state: *mut fsb_state_t,
 ) -> fsb_status_t {
-    any::states(estimator, state)
+    readings::states(estimator, state)
 }
 
 /// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known.
@@ -187,7 +188,7 @@ pub unsafe extern "C" fn fsb_rotation_state_sd(
     estimator: *const fsb_rotation_t,
     sd: *mut fsb_state_sd_t,
 ) -> fsb_status_t {
-    any::state_sd(estimator, sd)
+    readings::state_sd(estimator, sd)
 }
 
 /// Hands out the three parameters 1/inertia. What is not valid is NaN and its `status` says why. Errors as
@@ -199,7 +200,7 @@ pub unsafe extern "C" fn fsb_rotation_parameters(
     estimator: *const fsb_rotation_t,
     parameter: *mut fsb_parameter_t,
 ) -> fsb_status_t {
-    any::parameters(estimator, parameter)
+    readings::parameters(estimator, parameter)
 }
 
 /// Hands out what was missed or rejected. Errors as fsb_rotation_states; the counters are zero then. For the tick.
@@ -208,7 +209,7 @@ pub unsafe extern "C" fn fsb_rotation_counters(
     estimator: *const fsb_rotation_t,
     counters: *mut fsb_counters_t,
 ) -> fsb_status_t {
-    any::counters(estimator, counters)
+    readings::counters(estimator, counters)
 }
 
 /// Hands out inner signals, for logs and tests. Errors as fsb_rotation_states. Not for the tick: divisions.
@@ -218,5 +219,5 @@ pub unsafe extern "C" fn fsb_rotation_diagnostics(
     estimator: *const fsb_rotation_t,
     diagnostics: *mut fsb_diagnostics_t,
 ) -> fsb_status_t {
-    any::diagnostics(estimator, diagnostics)
+    readings::diagnostics(estimator, diagnostics)
 }

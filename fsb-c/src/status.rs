@@ -1,8 +1,11 @@
 //! Status codes and their names.
 
-use core::ffi::{CStr, c_char};
+use core::ffi::c_char;
+
 use fsb_core::ConfigError;
 use fsb_core::control::ControlError;
+
+use crate::names;
 
 /// What a function returns: FSB_OK, or why it did not do what it was asked for.
 pub type fsb_status_t = i32;
@@ -72,29 +75,14 @@ pub(crate) fn of_control(error: ControlError) -> fsb_status_t {
 /// Static storage, never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn fsb_status_name(status: fsb_status_t) -> *const c_char {
-    name(status).as_ptr()
+    names::at(NAMES, status)
 }
 
-fn name(status: fsb_status_t) -> &'static CStr {
-    match status {
-        FSB_OK => c"FSB_OK",
-        FSB_NULL_POINTER => c"FSB_NULL_POINTER",
-        FSB_MISALIGNED => c"FSB_MISALIGNED",
-        FSB_NOT_INITIALISED => c"FSB_NOT_INITIALISED",
-        FSB_OUT_OF_STEP => c"FSB_OUT_OF_STEP",
-        FSB_PARAMETER_OUT_OF_RANGE => c"FSB_PARAMETER_OUT_OF_RANGE",
-        FSB_NOT_FINITE => c"FSB_NOT_FINITE",
-        FSB_NOT_VALID => c"FSB_NOT_VALID",
-        FSB_UNKNOWN_VALUE => c"FSB_UNKNOWN_VALUE",
-        FSB_CONFIG_NOT_FINITE => c"FSB_CONFIG_NOT_FINITE",
-        FSB_CONFIG_NOT_POSITIVE => c"FSB_CONFIG_NOT_POSITIVE",
-        FSB_CONFIG_NEGATIVE => c"FSB_CONFIG_NEGATIVE",
-        FSB_CONFIG_OUT_OF_RANGE => c"FSB_CONFIG_OUT_OF_RANGE",
-        FSB_CONFIG_TOO_FAST => c"FSB_CONFIG_TOO_FAST",
-        FSB_CONFIG_TOO_SLOW => c"FSB_CONFIG_TOO_SLOW",
-        FSB_CONFIG_INVERTED_RANGE => c"FSB_CONFIG_INVERTED_RANGE",
-        FSB_CONFIG_ZERO => c"FSB_CONFIG_ZERO",
-        FSB_CONFIG_REFUSED => c"FSB_CONFIG_REFUSED",
-        _ => c"FSB_UNKNOWN",
-    }
-}
+/// What stands for no status, then those from 0 on, each with a zero behind it.
+static NAMES: &str = concat!(
+    "FSB_UNKNOWN\0FSB_OK\0FSB_NULL_POINTER\0FSB_MISALIGNED\0FSB_NOT_INITIALISED\0FSB_OUT_OF_STEP\0",
+    "FSB_PARAMETER_OUT_OF_RANGE\0FSB_NOT_FINITE\0FSB_NOT_VALID\0FSB_UNKNOWN_VALUE\0\0\0\0\0\0\0\0",
+    "FSB_CONFIG_NOT_FINITE\0FSB_CONFIG_NOT_POSITIVE\0FSB_CONFIG_NEGATIVE\0FSB_CONFIG_OUT_OF_RANGE\0",
+    "FSB_CONFIG_TOO_FAST\0FSB_CONFIG_TOO_SLOW\0FSB_CONFIG_INVERTED_RANGE\0FSB_CONFIG_ZERO\0\0\0\0\0\0\0\0",
+    "FSB_CONFIG_REFUSED\0",
+);

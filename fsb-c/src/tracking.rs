@@ -8,7 +8,7 @@ use fsb_core::control::{Reference, TrackingConfig, TrackingController, to_body};
 use fsb_core::estimator::AxisState;
 
 use crate::config::refusal;
-use crate::object::{self, Object, check_storage, give, read, take};
+use crate::object::{self, Object, borrow, check_storage, give, initialised, read, take, unnamed};
 use crate::status::{fsb_status_t, of_control};
 use crate::values::fsb_state_t;
 
@@ -77,17 +77,12 @@ pub unsafe extern "C" fn fsb_tracking_init(
     config: *const fsb_tracking_config_t,
     parameter: *mut *const c_char,
 ) -> fsb_status_t {
-    let mut name = None;
     let outcome = object::start(controller, || {
-        let [fsb_tracking_config_t { kp, kd, drift, k_min, k_max }] = take(config)?;
+        let fsb_tracking_config_t { kp, kd, drift, k_min, k_max } = *borrow(config).map_err(unnamed)?;
         let config = TrackingConfig { kp, kd, drift, parameter_min: k_min, parameter_max: k_max };
-        TrackingController::new(&config).map_err(refusal).map_err(|(status, at)| {
-            name = Some(at);
-            status
-        })
+        TrackingController::new(&config).map_err(refusal)
     });
-    object::name(parameter, name);
-    object::code(outcome)
+    initialised(outcome, parameter)
 }
 
 /// Hands out the input [N or N m] that makes the axis follow `reference` from `state`: (acceleration - drift -
@@ -106,9 +101,9 @@ pub unsafe extern "C" fn fsb_tracking_input(
     input: *mut f32,
 ) -> fsb_status_t {
     give(input, f32::NAN, || {
-        let [fsb_reference_t { position, velocity, acceleration }] = take(reference)?;
+        let fsb_reference_t { position, velocity, acceleration } = *borrow(reference)?;
         let reference = Reference { position, velocity, acceleration };
-        let [fsb_state_t { position, velocity, .. }] = take(state)?;
+        let fsb_state_t { position, velocity, .. } = *borrow(state)?;
         let state = AxisState { position, velocity };
         let input = read(controller, |controller| controller.input(&reference, &state, k))?;
         Ok([input.map_err(of_control)?])

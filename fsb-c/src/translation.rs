@@ -9,6 +9,7 @@ use fsb_core::Estimator;
 use crate::config::{fsb_rule_t, fsb_tuning_t};
 use crate::estimator as any;
 use crate::object::{Object, check_storage};
+use crate::readings;
 use crate::status::fsb_status_t;
 use crate::values::{fsb_counters_t, fsb_diagnostics_t, fsb_parameter_t, fsb_state_sd_t, fsb_state_t};
 
@@ -97,7 +98,7 @@ pub unsafe extern "C" fn fsb_translation_init(
     config: *const fsb_translation_config_t,
     parameter: *mut *const c_char,
 ) -> fsb_status_t {
-    any::init(estimator, config, parameter, fsb_translation_config_t::to_core)
+    any::init(estimator, config, parameter)
 }
 
 /// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
@@ -182,7 +183,7 @@ pub unsafe extern "C" fn fsb_translation_states(
     estimator: *const fsb_translation_t,
     state: *mut fsb_state_t,
 ) -> fsb_status_t {
-    any::states(estimator, state)
+    readings::states(estimator, state)
 }
 
 /// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known.
@@ -193,7 +194,7 @@ pub unsafe extern "C" fn fsb_translation_state_sd(
     estimator: *const fsb_translation_t,
     sd: *mut fsb_state_sd_t,
 ) -> fsb_status_t {
-    any::state_sd(estimator, sd)
+    readings::state_sd(estimator, sd)
 }
 
 /// Hands out the parameter 1/mass. What is not valid is NaN and its `status` says why. Errors as
@@ -204,7 +205,7 @@ pub unsafe extern "C" fn fsb_translation_parameters(
     estimator: *const fsb_translation_t,
     parameter: *mut fsb_parameter_t,
 ) -> fsb_status_t {
-    any::parameters(estimator, parameter)
+    readings::parameters(estimator, parameter)
 }
 
 /// Hands out what was missed or rejected. Errors as fsb_translation_states; the counters are zero then. For the tick.
@@ -213,7 +214,7 @@ pub unsafe extern "C" fn fsb_translation_counters(
     estimator: *const fsb_translation_t,
     counters: *mut fsb_counters_t,
 ) -> fsb_status_t {
-    any::counters(estimator, counters)
+    readings::counters(estimator, counters)
 }
 
 /// Hands out inner signals, for logs and tests. Errors as fsb_translation_states. Not for the tick: divisions.
@@ -223,5 +224,5 @@ pub unsafe extern "C" fn fsb_translation_diagnostics(
     estimator: *const fsb_translation_t,
     diagnostics: *mut fsb_diagnostics_t,
 ) -> fsb_status_t {
-    any::diagnostics(estimator, diagnostics)
+    readings::diagnostics(estimator, diagnostics)
 }

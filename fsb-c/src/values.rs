@@ -2,12 +2,13 @@
 
 #![allow(unsafe_op_in_unsafe_fn, reason = "every function passes its caller's contract on")]
 
-use core::ffi::{CStr, c_char};
+use core::ffi::c_char;
 
 use fsb_core::estimator::{AxisDiagnostics, AxisState, Counters, StateStatus};
 use fsb_core::readout::{Parameter, ParameterStatus};
 
-use crate::object::{give, take};
+use crate::names;
+use crate::object::{borrow, give};
 use crate::status::{FSB_NOT_VALID, fsb_status_t};
 
 /// Whether a position and a velocity may be used, and why not. Usable is whatever is FSB_STATE_NOMINAL or more.
@@ -244,7 +245,7 @@ pub unsafe extern "C" fn fsb_parameter_report(
     report: *mut fsb_parameter_report_t,
 ) -> fsb_status_t {
     give(report, fsb_parameter_report_t::INVALID, || {
-        let [fsb_parameter_t { k: value, variance, status }] = take(parameter)?;
+        let fsb_parameter_t { k: value, variance, status } = *borrow(parameter)?;
         if status < FSB_PARAMETER_VALID {
             return Err(FSB_NOT_VALID);
         }
@@ -257,33 +258,20 @@ pub unsafe extern "C" fn fsb_parameter_report(
 /// The name of a state status as it stands in this header. Static storage, never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn fsb_state_status_name(status: fsb_state_status_t) -> *const c_char {
-    let name: &CStr = match status {
-        FSB_STATE_NOT_MEASURED => c"FSB_STATE_NOT_MEASURED",
-        FSB_STATE_SETTLING => c"FSB_STATE_SETTLING",
-        FSB_STATE_NO_PARAMETER => c"FSB_STATE_NO_PARAMETER",
-        FSB_STATE_STALE => c"FSB_STATE_STALE",
-        FSB_STATE_NOMINAL => c"FSB_STATE_NOMINAL",
-        FSB_STATE_IDENTIFIED => c"FSB_STATE_IDENTIFIED",
-        FSB_STATE_HELD => c"FSB_STATE_HELD",
-        _ => c"FSB_STATE_UNKNOWN",
-    };
-    name.as_ptr()
+    static NAMES: &str = concat!(
+        "FSB_STATE_UNKNOWN\0\0FSB_STATE_NOT_MEASURED\0FSB_STATE_SETTLING\0FSB_STATE_NO_PARAMETER\0FSB_STATE_STALE\0\0\0\0",
+        "FSB_STATE_NOMINAL\0FSB_STATE_IDENTIFIED\0FSB_STATE_HELD\0",
+    );
+    names::at(NAMES, status)
 }
 
 /// The name of a parameter status as it stands in this header. Static storage, never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn fsb_parameter_status_name(status: fsb_parameter_status_t) -> *const c_char {
-    let name: &CStr = match status {
-        FSB_PARAMETER_SETTLING => c"FSB_PARAMETER_SETTLING",
-        FSB_PARAMETER_UNEXCITED => c"FSB_PARAMETER_UNEXCITED",
-        FSB_PARAMETER_UNCERTAIN => c"FSB_PARAMETER_UNCERTAIN",
-        FSB_PARAMETER_BELOW => c"FSB_PARAMETER_BELOW",
-        FSB_PARAMETER_ABOVE => c"FSB_PARAMETER_ABOVE",
-        FSB_PARAMETER_CONTRADICTED => c"FSB_PARAMETER_CONTRADICTED",
-        FSB_PARAMETER_FAULTED => c"FSB_PARAMETER_FAULTED",
-        FSB_PARAMETER_VALID => c"FSB_PARAMETER_VALID",
-        FSB_PARAMETER_HELD => c"FSB_PARAMETER_HELD",
-        _ => c"FSB_PARAMETER_UNKNOWN",
-    };
-    name.as_ptr()
+    static NAMES: &str = concat!(
+        "FSB_PARAMETER_UNKNOWN\0\0FSB_PARAMETER_SETTLING\0FSB_PARAMETER_UNEXCITED\0FSB_PARAMETER_UNCERTAIN\0",
+        "FSB_PARAMETER_BELOW\0FSB_PARAMETER_ABOVE\0FSB_PARAMETER_CONTRADICTED\0FSB_PARAMETER_FAULTED\0FSB_PARAMETER_VALID\0",
+        "FSB_PARAMETER_HELD\0",
+    );
+    names::at(NAMES, status)
 }

@@ -25,7 +25,7 @@ use self::values::{
     fsb_wrench_t,
 };
 use crate::config::{FSB_LEARNING_CONTACT, FSB_LEARNING_OFF, FSB_LEARNING_ON};
-use crate::object::{self, Object, change, check_storage, give, read, take};
+use crate::object::{self, Object, borrow, change, check_storage, give, initialised, read, take, unnamed};
 use crate::status::{FSB_MISALIGNED, FSB_UNKNOWN_VALUE, fsb_status_t};
 use crate::values::fsb_diagnostics_t;
 
@@ -96,20 +96,12 @@ pub unsafe extern "C" fn fsb_vehicle_init(
     config: *const fsb_vehicle_config_t,
     parameter: *mut *const c_char,
 ) -> fsb_status_t {
-    let mut name = None;
     let outcome = object::start(vehicle, || {
-        let [config] = take(config)?;
-        let made = config.to_core().and_then(|(config, frame)| {
-            let estimator = VehicleEstimator::new(&config).map_err(names::refusal)?;
-            Ok(Vehicle { estimator, frame })
-        });
-        made.map_err(|(status, at)| {
-            name = Some(at);
-            status
-        })
+        let (config, frame) = borrow(config).map_err(unnamed)?.to_core()?;
+        let estimator = VehicleEstimator::new(&config).map_err(names::refusal)?;
+        Ok(Vehicle { estimator, frame })
     });
-    object::name(parameter, name);
-    object::code(outcome)
+    initialised(outcome, parameter)
 }
 
 /// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,

@@ -75,6 +75,37 @@ impl fmt::Display for ConfigError {
 
 impl core::error::Error for ConfigError {}
 
+/// The names of the parameters of an estimator and of a tracking controller, in one text with a zero behind each: where an error
+/// carries one of these it is a part of this text, and so is a text of C as well. Where a parameter goes by another name in
+/// C that one follows, after an equals sign.
+pub static NAMES: &str = concat!(
+    "period\0substeps\0block\0turn\0readout\0identifier.lambda\0identifier.q\0observer.lambda\0observer.q\0noise_sd\0",
+    "memory.tau\0=memory_tau\0drift\0nominal\0rule.min\0rule.max\0rule.max_relative_sd\0max_misfit\0",
+    "parameter_settle\0state_settle\0position_limit\0input_limit\0",
+    "kp\0kd\0parameter_min\0=k_min\0parameter_max\0=k_max\0",
+);
+
+/// The part of [`NAMES`] that says `name`. For constants: where there is none it fails to compile.
+pub(crate) const fn name(name: &str) -> &'static str {
+    let (all, wanted) = (NAMES.as_bytes(), name.as_bytes());
+    let (mut start, mut at) = (0, 0);
+    loop {
+        if all[at] != 0 {
+            at += 1;
+            continue;
+        }
+        let mut same = 0;
+        while same < wanted.len() && all[start + same] == wanted[same] {
+            same += 1;
+        }
+        if same == wanted.len() && start + same == at {
+            return NAMES.split_at(start).1.split_at(wanted.len()).0;
+        }
+        at += 1;
+        start = at;
+    }
+}
+
 pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, ConfigError> {
     if value.is_finite() { Ok(value) } else { Err(ConfigError::NonFinite(name)) }
 }

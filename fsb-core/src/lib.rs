@@ -5,6 +5,7 @@
 
 pub mod accumulator;
 pub mod attitude;
+mod checks;
 pub mod control;
 pub mod error;
 pub mod estimator;
@@ -14,9 +15,11 @@ pub mod moments;
 pub mod observer;
 pub mod readout;
 pub mod regression;
+mod root;
 pub mod snapshot;
 pub mod tuning;
 pub mod vehicle;
+mod wide;
 pub mod window;
 
 pub use error::ConfigError;

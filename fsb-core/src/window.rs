@@ -25,8 +25,11 @@ pub struct WindowDesign {
 }
 
 impl WindowDesign {
+    pub(crate) const BLANK: Self = Self { alpha: 0.0, alpha_over_rho: 0.0 };
+
+    #[inline(never)]
     pub(crate) fn new(decay: &Decay) -> Self {
-        Self { alpha: decay.alpha as f32, alpha_over_rho: (decay.alpha / decay.rho) as f32 }
+        Self { alpha: decay.alpha.rounded(), alpha_over_rho: (decay.mixed - decay.alpha).rounded() }
     }
 }
 
@@ -116,9 +119,10 @@ impl Window {
 mod tests {
     use super::*;
     use crate::tuning::Tuning;
+    use crate::wide::Wide;
 
     fn decay(q_t: f64) -> Decay {
-        Tuning { lambda: q_t, q: q_t }.plain_decay(1.0)
+        Tuning { lambda: q_t, q: q_t }.decay(Wide::ONE)
     }
 
     /// e = ρ^n and h = 1 - ρ^n, h to a few ulps of itself from the first sample on: that is what the sums are for.

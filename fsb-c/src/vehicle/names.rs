@@ -3,11 +3,12 @@
 //! In one piece: texts of their own would stand in a section with all others, which the linker keeps as a whole in programs that
 //! use nothing of this.
 
-use core::ffi::CStr;
+use core::ffi::c_char;
 
 use fsb_core::ConfigError;
 
 use crate::config::Refusal;
+use crate::names::named;
 use crate::status::of_config;
 
 macro_rules! texts {
@@ -20,7 +21,7 @@ macro_rules! texts {
     };
 }
 
-/// Each with a zero behind it.
+/// The core's names, each with a zero behind it; where a field is called otherwise in C its name follows, after an equals sign.
 static NAMES: &str = texts!(
     [
         "substeps",
@@ -32,7 +33,6 @@ static NAMES: &str = texts!(
         "observer.lambda",
         "observer.q",
         "noise_sd",
-        "memory_tau",
         "max_relative_sd",
         "max_misfit",
         "parameter_settle",
@@ -47,6 +47,10 @@ static NAMES: &str = texts!(
         "guard.frozen_after",
     ],
     [
+        "translation.memory.tau",
+        "=translation.memory_tau",
+        "rotation.memory.tau",
+        "=rotation.memory_tau",
         "period",
         "frame",
         "gravity",
@@ -65,20 +69,10 @@ static NAMES: &str = texts!(
 
 /// The code of a refused configuration, and the core's name of the parameter as the field is called in C.
 pub(super) fn refusal(error: ConfigError) -> Refusal {
-    let name = match error.parameter() {
-        "translation.memory.tau" => "translation.memory_tau",
-        "rotation.memory.tau" => "rotation.memory_tau",
-        name => name,
-    };
-    (of_config(error), c_name(name))
+    (of_config(error), c_name(error.parameter()))
 }
 
 /// A name of the configuration as C text.
-pub(super) fn c_name(name: &str) -> &'static CStr {
-    NAMES
-        .as_bytes()
-        .split_inclusive(|byte| *byte == 0)
-        .filter_map(|text| CStr::from_bytes_with_nul(text).ok())
-        .find(|text| text.to_bytes() == name.as_bytes())
-        .unwrap_or(c"configuration")
+pub(super) fn c_name(name: &str) -> *const c_char {
+    named(NAMES, name)
 }

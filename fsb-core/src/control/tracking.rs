@@ -1,6 +1,7 @@
 //! One axis of (11), (13), (70)-(71).
 
-use crate::error::{ConfigError, finite, positive};
+use crate::checks::{Checks, Range, Rule, rule};
+use crate::error::ConfigError;
 use crate::estimator::AxisState;
 use core::fmt;
 
@@ -18,11 +19,6 @@ pub struct TrackingConfig {
     pub parameter_min: f64,
     /// The largest parameter that the controller divides by.
     pub parameter_max: f64,
-}
-
-/// A positive gain that f32 can hold.
-fn gain(name: &'static str, value: f64) -> Result<f32, ConfigError> {
-    if (1e-15..=1e15).contains(&positive(name, value)?) { Ok(value as f32) } else { Err(ConfigError::OutOfRange(name)) }
 }
 
 /// What the axis shall do now.
@@ -77,26 +73,19 @@ impl TrackingController {
     /// # Errors
     /// Names `kp`, `kd`, `drift`, `parameter_min` or `parameter_max`.
     pub fn new(config: &TrackingConfig) -> Result<Self, ConfigError> {
-        let min = positive("parameter_min", config.parameter_min)?;
-        if finite("parameter_max", config.parameter_max)? < min {
-            return Err(ConfigError::InvertedRange("parameter_min"));
-        }
-        for (name, value) in [("parameter_min", min), ("parameter_max", config.parameter_max)] {
-            if !(1e-15..=1e15).contains(&value) {
-                return Err(ConfigError::OutOfRange(name));
-            }
-        }
-        Ok(Self {
-            kp: gain("kp", config.kp)?,
-            kd: gain("kd", config.kd)?,
-            drift: if finite("drift", config.drift)?.abs() <= 1e6 {
-                config.drift as f32
-            } else {
-                return Err(ConfigError::OutOfRange("drift"));
-            },
-            min: min as f32,
-            max: config.parameter_max as f32,
-        })
+        const LIMITS: [Rule; 2] =
+            [*rule!("parameter_min", Range::PARAMETER), *rule!("parameter_max", Range::PARAMETER)];
+        let mut checks = Checks::new();
+        let (min, max) = checks.limits(&LIMITS, [config.parameter_min, config.parameter_max], true);
+        let controller = Self {
+            kp: checks.number(rule!("kp", Range::PARAMETER), config.kp),
+            kd: checks.number(rule!("kd", Range::PARAMETER), config.kd),
+            drift: checks.signed(rule!("drift", Range::MAGNITUDE), config.drift),
+            min,
+            max,
+        };
+        checks.outcome()?;
+        Ok(controller)
     }
 
     /// The input for `state`, with the parameter `k` (identified, nominal or true).

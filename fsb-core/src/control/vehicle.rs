@@ -2,7 +2,8 @@
 
 use super::body_force::to_body;
 use super::tracking::ControlError;
-use crate::error::{ConfigError, finite, positive};
+use crate::checks::{Checks, Range, Rule};
+use crate::error::ConfigError;
 use crate::vehicle::Wrench;
 
 /// K_P and K_D of (12) for one group of axes. Plain data.
@@ -123,17 +124,27 @@ impl VehicleController {
     /// # Errors
     /// Names the parameter: `translation.kp`, `rotation.kd`, `gravity`, `mass`, `inertia` and so on.
     pub fn new(config: &VehicleControlConfig) -> Result<Self, ConfigError> {
+        const GRAVITY: Range = Range::from_zero(100.0);
+        const MASS: [Rule; 2] = [Rule("mass", &Range::PARAMETER); 2];
+        const INERTIA: [Rule; 2] = [Rule("inertia", &Range::PARAMETER); 2];
         let VehicleControlConfig { translation, rotation, gravity, mass, inertia } = *config;
-        if !(0.0..=100.0).contains(&finite("gravity", gravity)?) {
-            return Err(ConfigError::OutOfRange("gravity"));
-        }
-        Ok(Self {
-            translation: [within("translation.kp", translation.kp)?, within("translation.kd", translation.kd)?],
-            rotation: [within("rotation.kp", rotation.kp)?, within("rotation.kd", rotation.kd)?],
-            gravity: gravity as f32,
-            mass: limits("mass", mass)?,
-            inertia: limits("inertia", inertia)?,
-        })
+        let mut checks = Checks::new();
+        let mut gain = |rule: &'static Rule, value| checks.number(rule, value);
+        let controller = Self {
+            gravity: gain(&Rule("gravity", &GRAVITY), gravity),
+            translation: [
+                gain(&Rule("translation.kp", &Range::PARAMETER), translation.kp),
+                gain(&Rule("translation.kd", &Range::PARAMETER), translation.kd),
+            ],
+            rotation: [
+                gain(&Rule("rotation.kp", &Range::PARAMETER), rotation.kp),
+                gain(&Rule("rotation.kd", &Range::PARAMETER), rotation.kd),
+            ],
+            mass: checks.limits(&MASS, mass, false).into(),
+            inertia: checks.limits(&INERTIA, inertia, false).into(),
+        };
+        checks.outcome()?;
+        Ok(controller)
     }
 
     /// The wrench for `motion`, with the parameters m̂ = `mass` (kg) and Î = diag(`inertia`) (kg m²): identified, nominal
@@ -178,16 +189,6 @@ impl VehicleController {
             Err(ControlError::NonFinite)
         }
     }
-}
-
-/// A positive number that f32 can hold.
-fn within(name: &'static str, value: f64) -> Result<f32, ConfigError> {
-    if (1e-15..=1e15).contains(&positive(name, value)?) { Ok(value as f32) } else { Err(ConfigError::OutOfRange(name)) }
-}
-
-fn limits(name: &'static str, [low, high]: [f64; 2]) -> Result<[f32; 2], ConfigError> {
-    let both = [within(name, low)?, within(name, high)?];
-    if low < high { Ok(both) } else { Err(ConfigError::InvertedRange(name)) }
 }
 
 /// Written so that NaN is outside.

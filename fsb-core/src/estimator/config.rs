@@ -48,10 +48,93 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     pub input_limit: f64,
 }
 
+/// The part of an [`EstimatorConfig`] that does not depend on the number of axes, in numbers alone: as it may stand in a table
+/// of parameters, or in a structure of C.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
+pub struct SharedConfig {
+    /// See [`EstimatorConfig::period`].
+    pub period: f64,
+    /// See [`EstimatorConfig::substeps`].
+    pub substeps: u32,
+    /// See [`EstimatorConfig::block`].
+    pub block: u32,
+    /// See [`EstimatorConfig::turn`].
+    pub turn: u32,
+    /// 0 for [`Readout::LeastSquares`], 1 for [`Readout::AbsoluteRatio`].
+    pub readout: u32,
+    /// See [`EstimatorConfig::identifier`].
+    pub identifier: Tuning,
+    /// See [`EstimatorConfig::observer`].
+    pub observer: Tuning,
+    /// See [`EstimatorConfig::noise_sd`]; NaN where it is not known.
+    pub noise_sd: f64,
+    /// τ of [`Memory::Fading`] (s); infinite for [`Memory::Infinite`].
+    pub memory_tau: f64,
+    /// See [`EstimatorConfig::max_misfit`]; NaN where it is not asked.
+    pub max_misfit: f64,
+    /// See [`EstimatorConfig::parameter_settle`].
+    pub parameter_settle: f64,
+    /// See [`EstimatorConfig::state_settle`].
+    pub state_settle: f64,
+    /// See [`EstimatorConfig::position_limit`].
+    pub position_limit: f64,
+    /// See [`EstimatorConfig::input_limit`].
+    pub input_limit: f64,
+}
+
+/// NaN for a value that is not known; one that is NaN itself becomes infinite, which is refused like it.
+pub(super) const fn or_nan(value: Option<f64>) -> f64 {
+    match value {
+        None => f64::NAN,
+        Some(value) => {
+            if value.is_nan() {
+                f64::INFINITY
+            } else {
+                value
+            }
+        }
+    }
+}
+
 impl<const N: usize, const P: usize> EstimatorConfig<N, P> {
+    /// What does not depend on the number of axes.
+    pub const fn shared(&self) -> SharedConfig {
+        SharedConfig {
+            period: self.period,
+            substeps: self.substeps,
+            block: self.block,
+            turn: self.turn,
+            readout: match self.readout {
+                Readout::LeastSquares => 0,
+                Readout::AbsoluteRatio => 1,
+            },
+            identifier: self.identifier,
+            observer: self.observer,
+            noise_sd: or_nan(self.noise_sd),
+            memory_tau: match self.memory {
+                Memory::Infinite => f64::INFINITY,
+                // An infinite τ is refused, as any that is not finite.
+                Memory::Fading { tau } => {
+                    if tau == f64::INFINITY {
+                        f64::NAN
+                    } else {
+                        tau
+                    }
+                }
+            },
+            max_misfit: or_nan(self.max_misfit),
+            parameter_settle: self.parameter_settle,
+            state_settle: self.state_settle,
+            position_limit: self.position_limit,
+            input_limit: self.input_limit,
+        }
+    }
+
     /// Every sample measured, no blocks, λ = 2, q = 1 for the identifier, λ = 10, q = 5 for the observer, least squares with
     /// infinite memory, no drift, no nominal parameter, ε = 0.
-    pub fn new(period: f64) -> Self {
+    pub const fn new(period: f64) -> Self {
         Self {
             period,
             substeps: 1,
@@ -64,7 +147,7 @@ impl<const N: usize, const P: usize> EstimatorConfig<N, P> {
             memory: Memory::Infinite,
             drift: [0.0; N],
             nominal: [None; P],
-            rule: [ParameterRule::default(); P],
+            rule: [ParameterRule::DEFAULT; P],
             max_misfit: Some(0.02),
             parameter_settle: 0.0,
             state_settle: 0.0,

@@ -1,13 +1,15 @@
 //! A configuration validated and turned into constants.
 
-use super::config::EstimatorConfig;
+use super::config::{EstimatorConfig, SharedConfig, or_nan};
 use super::schedule::Schedule;
-use crate::error::{ConfigError, finite, positive};
+use crate::checks::{Checks, Fault, Range, rounded_up, rule};
+use crate::error::{ConfigError, name};
 use crate::identifier::{BlockDesign, IdentifierDesign};
 use crate::moments::Substep;
 use crate::observer::ObserverDesign;
-use crate::readout::{CheckedRule, CovarianceDesign, Memory, NoiseLevel, ParameterRule, Readout, innovation_step_gain};
-use crate::tuning::{Tuning, checked_period};
+use crate::readout::{CheckedRule, CovarianceDesign, NoiseLevel, ParameterRule, Readout, innovation_step_gain};
+use crate::tuning::{Tuning, decayed};
+use crate::wide::Wide;
 use crate::window::WindowDesign;
 
 /// The immutable part of an [`super::Estimator`]; one may serve several.
@@ -81,170 +83,172 @@ pub(super) struct Common {
 }
 
 impl<const N: usize, const P: usize> EstimatorDesign<N, P> {
-    const SHAPE: () = assert!(
-        N >= 1 && N <= 8 && (P == 1 || P == N),
-        "at most 8 axes; P must be 1 (pooled) or N (one parameter per axis)"
-    );
-
     /// Validates `config`.
     ///
     /// # Errors
     /// Names the first parameter that cannot be right. Rates are judged by the period they run at: λ and q of the observer
     /// by the measurement period T, those of the identifier by M T; both products must be within 1e-6..=1.
     pub fn new(config: &EstimatorConfig<N, P>) -> Result<Self, ConfigError> {
-        const { Self::SHAPE };
-        let common = Common::new(&Shapeless {
-            axes: N as u32,
-            sharing: if P == 1 { N as u32 } else { 1 },
-            any_drift: config.drift.iter().any(|&c| c != 0.0),
-            period: config.period,
-            substeps: config.substeps,
-            block: config.block,
-            turn: config.turn,
-            identifier: config.identifier,
-            observer: config.observer,
-            noise_sd: config.noise_sd,
-            readout: config.readout,
-            memory: config.memory,
-            max_misfit: config.max_misfit,
-            parameter_settle: config.parameter_settle,
-            state_settle: config.state_settle,
-            position_limit: config.position_limit,
-            input_limit: config.input_limit,
-        })?;
-        let period2 = common.measurement_period * common.measurement_period;
-        let mut axes = [AxisDesign { drift: 0.0, drift_t2: 0.0 }; N];
-        for (axis, &c) in axes.iter_mut().zip(&config.drift) {
-            *axis = AxisDesign::new(c, period2)?;
-        }
-        let mut parameters = [ParameterDesign { nominal: None, rule: CheckedRule::NEVER }; P];
-        for (parameter, (&nominal, rule)) in parameters.iter_mut().zip(config.nominal.iter().zip(&config.rule)) {
-            *parameter = ParameterDesign::new(nominal, rule)?;
-        }
+        let mut checks = Checks::new();
+        let mut common = Common::BLANK;
+        common.fill(&config.shared(), Shape::of::<N, P>(), &mut checks);
+        let axes = config.drift.map(|c| AxisDesign::new(c, &mut common, &mut checks));
+        let mut rules = config.rule.iter();
+        let parameters = config.nominal.map(|nominal| {
+            let rule = rules.next().copied().unwrap_or_default();
+            ParameterDesign::new(or_nan(nominal), &rule, &mut checks)
+        });
+        checks.outcome()?;
         Ok(Self { common, axes, parameters })
     }
 }
 
 impl AxisDesign {
-    fn new(drift: f64, period2: f64) -> Result<Self, ConfigError> {
-        if finite("drift", drift)?.abs() > 1e6 {
-            return Err(ConfigError::OutOfRange("drift"));
-        }
-        Ok(Self { drift: drift as f32, drift_t2: (drift * period2) as f32 })
+    /// Under the known drift `drift` (m/s² or rad/s²); tells `common` of it.
+    #[inline(never)]
+    pub fn new(drift: f64, common: &mut Common, checks: &mut Checks) -> Self {
+        let rounded = checks.signed(rule!("drift", Range::MAGNITUDE), drift);
+        common.any_drift |= rounded != 0.0;
+        let period = Wide::new(common.measurement_period);
+        Self { drift: rounded, drift_t2: (Wide::new(drift) * (period * period)).rounded() }
     }
 }
 
 impl ParameterDesign {
-    #[inline(never)]
-    fn new(nominal: Option<f64>, rule: &ParameterRule) -> Result<Self, ConfigError> {
-        if let Some(k) = nominal
-            && !(1e-15..=1e15).contains(&positive("nominal", k)?)
-        {
-            return Err(ConfigError::OutOfRange("nominal"));
-        }
-        Ok(Self { nominal: nominal.map(|k| k as f32), rule: rule.checked()? })
+    /// `nominal` is NaN where it is not known.
+    pub fn new(nominal: f64, rule: &ParameterRule, checks: &mut Checks) -> Self {
+        let nominal = checks.if_known(rule!("nominal", Range::PARAMETER), nominal);
+        Self { nominal, rule: rule.checked(checks) }
     }
 }
 
-/// The part of a configuration that does not depend on the number of axes: its code is there once.
-struct Shapeless {
-    axes: u32,
-    /// Axes to a parameter.
-    sharing: u32,
-    any_drift: bool,
-    period: f64,
-    substeps: u32,
-    block: u32,
-    turn: u32,
-    identifier: Tuning,
-    observer: Tuning,
-    noise_sd: Option<f64>,
-    readout: Readout,
-    memory: Memory,
-    max_misfit: Option<f64>,
-    parameter_settle: f64,
-    state_settle: f64,
-    position_limit: f64,
-    input_limit: f64,
+/// The number of axes, and how many of them share a parameter.
+#[derive(Clone, Copy)]
+pub(super) struct Shape {
+    axes: u8,
+    pub sharing: u8,
+}
+
+impl Shape {
+    /// N axes, P parameters.
+    pub const fn of<const N: usize, const P: usize>() -> Self {
+        const {
+            assert!(
+                N >= 1 && N <= 8 && (P == 1 || P == N),
+                "at most 8 axes; P must be 1 (pooled) or N (one parameter per axis)"
+            );
+        }
+        Self { axes: N as u8, sharing: if P == 1 { N as u8 } else { 1 } }
+    }
 }
 
 impl Common {
+    /// Nothing.
+    pub const BLANK: Self = Self {
+        substeps: 0,
+        substep: Substep::BLANK,
+        substep_share: 0.0,
+        block_length: 0,
+        schedule: Schedule {
+            turn: 0,
+            round: 0,
+            weights_at: 0,
+            gains_every: 0,
+            gains_at: 0,
+            events: 0,
+            unhurried: false,
+            staggered: false,
+        },
+        observer: ObserverDesign::BLANK,
+        observer_stride: WindowDesign::BLANK,
+        identifier: IdentifierDesign::BLANK,
+        block: BlockDesign {
+            length: 0.0,
+            per_length: 0.0,
+            per_length2: 0.0,
+            centre: 0.0,
+            span: 0.0,
+            unit_s: 0.0,
+            unit_past: 0.0,
+        },
+        covariance: CovarianceDesign::BLANK,
+        innovation_to_mean: 0.0,
+        readout: Readout::LeastSquares,
+        plain: false,
+        forgetting: 0.0,
+        noise: NoiseLevel::UNKNOWN,
+        any_drift: false,
+        period2: 0.0,
+        max_misfit: 0.0,
+        parameter_settle: 0,
+        state_settle: 0,
+        late_settle: 0,
+        position_limit: 0.0,
+        input_limit: 0.0,
+        observer_tuning: Tuning { lambda: 0.0, q: 0.0 },
+        measurement_period: 0.0,
+    };
+
+    /// Where `checks` find something wrong the constants are of no use; there is no panic, whatever the values.
     #[inline(never)]
-    fn new(config: &Shapeless) -> Result<Self, ConfigError> {
-        let control = checked_period("period", config.period)?;
-        for (name, count) in [("substeps", config.substeps), ("block", config.block)] {
-            if count == 0 {
-                return Err(ConfigError::Zero(name));
-            }
-            if count > 65_535 {
-                return Err(ConfigError::OutOfRange(name));
-            }
+    pub fn fill(&mut self, config: &SharedConfig, shape: Shape, checks: &mut Checks) {
+        const NOISE: Range = Range::positive(1e-12, 1e6);
+        let (axes, sharing) = (u32::from(shape.axes), u32::from(shape.sharing));
+        // What is zero is noted down; from here on it need not be thought of.
+        let (substeps, block) = (config.substeps.max(1), config.block.max(1));
+        checks.number(rule!("period", Range::PERIOD), config.period);
+        checks.count(const { name("substeps") }, config.substeps);
+        checks.count(const { name("block") }, config.block);
+        if config.turn >= block.max(8) {
+            checks.note(const { name("turn") }, Fault::OutOfRange);
         }
-        if config.turn >= config.block.max(8) {
-            return Err(ConfigError::OutOfRange("turn"));
+        if config.readout > 1 {
+            checks.note(const { name("readout") }, Fault::OutOfRange);
         }
-        let period = checked_period("substeps", control * f64::from(config.substeps))?;
-        let step = checked_period("block", period * f64::from(config.block))?;
-        let decay = config.identifier.decay(step, "identifier.lambda", "identifier.q")?;
-        let fading = config.memory.fading(step)?;
-        let covariance = CovarianceDesign::new(config.identifier, step, fading, config.sharing);
-        let noise = match config.noise_sd {
-            None => NoiseLevel::default(),
-            Some(sd) if positive("noise_sd", sd)? > 1e6 || sd < 1e-12 => {
-                return Err(ConfigError::OutOfRange("noise_sd"));
-            }
-            Some(sd) => NoiseLevel::expected((sd * sd / f64::from(config.block)) as f32),
+        let period = Wide::new(config.period) * Wide::of(substeps);
+        let step = period * Wide::of(block);
+        checks.within(rule!("substeps", Range::PERIOD), period);
+        checks.within(rule!("block", Range::PERIOD), step);
+        config.identifier.checked(step, const { &[name("identifier.lambda"), name("identifier.q")] }, checks);
+        config.observer.checked(period, const { &[name("observer.lambda"), name("observer.q")] }, checks);
+        let tau = Wide::new(config.memory_tau);
+        let fades = tau.bits() != f64::INFINITY.to_bits();
+        let mut fading = Wide::ZERO;
+        if fades {
+            checks.within(rule!("memory.tau", Range::POSITIVE), tau);
+            fading = step.over(tau);
+            checks.within(rule!("memory.tau", Range::FADING), fading);
+        }
+        let block_length = block as f32;
+        self.noise = match checks.if_known(rule!("noise_sd", NOISE), config.noise_sd) {
+            Some(sd) => NoiseLevel::expected(sd * sd / block_length),
+            None => NoiseLevel::UNKNOWN,
         };
-        let schedule = Schedule::new(config.axes, config.block, config.turn, period, covariance.steps);
-        let observer_decay = config.observer.decay(period, "observer.lambda", "observer.q")?;
-        let innovation = innovation_step_gain(observer_decay.p as f32) * config.block as f32;
-        Ok(Self {
-            substeps: config.substeps,
-            substep: Substep::new(config.substeps)?,
-            substep_share: (1.0 / f64::from(config.substeps)) as f32,
-            block_length: config.block,
-            schedule,
-            observer: ObserverDesign::from_decay(&observer_decay),
-            observer_stride: WindowDesign::new(&config.observer.plain_decay(period * f64::from(schedule.gains_every))),
-            identifier: IdentifierDesign::from_decay(&decay),
-            block: BlockDesign::new(config.block),
-            innovation_to_mean: 1.0 / innovation,
-            readout: config.readout,
-            plain: config.readout == Readout::LeastSquares && fading == 0.0,
-            forgetting: -libm::expm1(-fading / f64::from(config.sharing)) as f32,
-            covariance,
-            noise,
-            any_drift: config.any_drift,
-            period2: (period * period) as f32,
-            max_misfit: misfit(config.max_misfit)?,
-            parameter_settle: samples("parameter_settle", config.parameter_settle, period)?,
-            state_settle: samples("state_settle", config.state_settle, period)?,
-            late_settle: samples("observer.lambda", 8.0 / config.observer.lambda, period)?,
-            position_limit: limit("position_limit", config.position_limit)?,
-            input_limit: limit("input_limit", config.input_limit)?,
-            observer_tuning: config.observer,
-            measurement_period: period,
-        })
-    }
-}
+        let misfit = checks.if_known(rule!("max_misfit", Range::SHARE), config.max_misfit);
+        self.max_misfit = misfit.unwrap_or(f32::INFINITY);
+        self.position_limit = checks.number(rule!("position_limit", Range::LIMIT), config.position_limit);
+        self.input_limit = checks.number(rule!("input_limit", Range::LIMIT), config.input_limit);
+        self.parameter_settle = checks.samples(const { name("parameter_settle") }, config.parameter_settle, period);
+        self.state_settle = checks.samples(const { name("state_settle") }, config.state_settle, period);
 
-/// The number of measurements in `seconds`, rounded up.
-pub(crate) fn samples(name: &'static str, seconds: f64, period: f64) -> Result<u32, ConfigError> {
-    if finite(name, seconds)? < 0.0 {
-        return Err(ConfigError::Negative(name));
-    }
-    let count = libm::ceil(seconds / period - 1e-6);
-    if count > 1e9 { Err(ConfigError::OutOfRange(name)) } else { Ok(libm::fmax(count, 0.0) as u32) }
-}
-
-pub(crate) fn limit(name: &'static str, value: f64) -> Result<f32, ConfigError> {
-    if positive(name, value)? > 1e6 { Err(ConfigError::OutOfRange(name)) } else { Ok(value as f32) }
-}
-
-fn misfit(share: Option<f64>) -> Result<f32, ConfigError> {
-    match share {
-        None => Ok(f32::INFINITY),
-        Some(share) if positive("max_misfit", share)? > 1.0 => Err(ConfigError::OutOfRange("max_misfit")),
-        Some(share) => Ok(share as f32),
+        self.substeps = substeps;
+        self.substep = Substep::of(substeps);
+        self.substep_share = 1.0 / substeps as f32;
+        self.block_length = block;
+        self.block = BlockDesign::new(block);
+        self.covariance.fill(&config.identifier, step, fading, sharing);
+        self.schedule = Schedule::new(axes, block, config.turn, period, self.covariance.steps);
+        self.observer = ObserverDesign::from_decay(&config.observer.decay(period));
+        let stride = period * Wide::of(self.schedule.gains_every);
+        self.observer_stride = WindowDesign::new(&config.observer.decay(stride));
+        self.identifier = IdentifierDesign::from_decay(&config.identifier.decay(step));
+        self.innovation_to_mean = 1.0 / (innovation_step_gain(self.observer.p()) * block_length);
+        self.readout = if config.readout == 0 { Readout::LeastSquares } else { Readout::AbsoluteRatio };
+        self.plain = config.readout == 0 && !fades;
+        self.forgetting = decayed(fading.over(Wide::of(sharing))).rounded();
+        self.period2 = (period * period).rounded();
+        self.late_settle = rounded_up(Wide::new(8.0).over(Wide::new(config.observer.lambda) * period));
+        self.observer_tuning = config.observer;
+        self.measurement_period = period.get();
     }
 }

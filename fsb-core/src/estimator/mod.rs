@@ -6,6 +6,7 @@
 //! |---|---|
 //! | `config` | plain data |
 //! | `design` | the same, validated and turned into constants |
+//! | `configuring` | an estimator being configured, part by part and in place |
 //! | `schedule` | who has a turn at which measurement |
 //! | `axis` | the state of one axis, and what it does at its turns |
 //! | `identify` | its block through the cascade, and into its parameter's sums |
@@ -18,11 +19,13 @@
 //! | `expectation` | what the next measurement should be, for a gate in front |
 //! | `stored` | what a snapshot holds |
 //! | `readings` | what is handed out |
+//! | `view` | the same without the shape, for the C interface |
 //! | `output` | the types of that |
 
 mod advance;
 mod axis;
 mod config;
+mod configuring;
 mod design;
 mod expectation;
 mod identify;
@@ -37,16 +40,20 @@ mod step;
 mod stored;
 #[cfg(test)]
 mod tests;
+mod view;
 
-pub use config::EstimatorConfig;
+pub use config::{EstimatorConfig, SharedConfig};
+pub use configuring::Configuring;
 pub use design::EstimatorDesign;
-pub(crate) use design::{limit, samples};
 pub use output::{AxisDiagnostics, AxisState, Counters, Learning, OutOfStep, StateStatus};
 pub(crate) use output::{IdentifierView, InnovationView};
+pub use view::View;
 
 use crate::error::ConfigError;
 use crate::readout::ParameterState;
 use axis::Axis;
+use config::or_nan;
+use design::Shape;
 use parts::{Frame, Parts};
 use shared::Progress;
 
@@ -69,27 +76,44 @@ pub struct Estimator<const N: usize, const P: usize> {
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Axes to a parameter.
-    const SHARING: u8 = if P == 1 { N as u8 } else { 1 };
+    const SHARING: u8 = Shape::of::<N, P>().sharing;
 
     /// Validates `config` and starts empty.
     ///
     /// # Errors
     /// As [`EstimatorDesign::new`].
     pub fn new(config: &EstimatorConfig<N, P>) -> Result<Self, ConfigError> {
-        Ok(Self::with_design(EstimatorDesign::new(config)?))
+        let mut estimator = Self::unconfigured();
+        let mut configuring = estimator.configuring();
+        configuring.shared(&config.shared());
+        for (index, &drift) in config.drift.iter().enumerate() {
+            configuring.drift(index, drift);
+        }
+        for (index, (&nominal, rule)) in config.nominal.iter().zip(&config.rule).enumerate() {
+            configuring.parameter(index, or_nan(nominal), rule);
+        }
+        configuring.finish()?;
+        Ok(estimator)
+    }
+
+    /// Of no use before it is configured: for storage that is there already, see [`configuring`](Self::configuring).
+    #[inline(always)]
+    pub fn unconfigured() -> Self {
+        Self { frame: Frame::blank(), parameters: [ParameterState::BLANK; P] }
+    }
+
+    /// Validates a configuration part by part, and starts empty: what [`new`](Self::new) does, in place.
+    #[inline(always)]
+    pub fn configuring(&mut self) -> Configuring<'_> {
+        Configuring::new(self.parts(), Shape::of::<N, P>())
     }
 
     /// Starts empty on a design made before.
     pub fn with_design(design: EstimatorDesign<N, P>) -> Self {
         let EstimatorDesign { common, axes, parameters } = design;
-        let mut estimator = Self {
-            frame: Frame {
-                progress: Progress::start(&common),
-                axes: axes.map(|own| Axis::start(common.noise, own, None, common.period2)),
-                common,
-            },
-            parameters: parameters.map(|own| ParameterState::start(Self::SHARING, own.nominal, own.rule)),
-        };
+        let parameters = parameters.map(|own| ParameterState::start(Self::SHARING, own.nominal, own.rule));
+        let axes = axes.map(|own| Axis { own, ..Axis::default() });
+        let mut estimator = Self { frame: Frame { progress: Progress::start(&common), axes, common }, parameters };
         estimator.parts().start_axes();
         estimator
     }

@@ -2,7 +2,9 @@
 
 use super::axis::{Axis, Clocks, Source};
 use super::design::Common;
+use super::output::Learning;
 use super::shared::{IdentifierClock, Progress};
+use crate::observer::Model;
 use crate::readout::{NoiseLevel, ParameterState};
 
 /// The axes and what they share. Without its shape it is this with a slice in place of the array: two words to hand over.
@@ -11,6 +13,14 @@ pub(super) struct Frame<A: ?Sized> {
     pub common: Common,
     pub progress: Progress,
     pub axes: A,
+}
+
+impl<const N: usize> Frame<[Axis; N]> {
+    /// Before it is configured.
+    #[inline(never)]
+    pub fn blank() -> Self {
+        Self { progress: Progress::start(&Common::BLANK), axes: [Axis::default(); N], common: Common::BLANK }
+    }
 }
 
 /// Borrowed from an estimator.
@@ -25,20 +35,32 @@ pub(super) fn parameter_of(axis: usize, parameters: &[ParameterState]) -> usize 
     if parameters.len() == 1 { 0 } else { axis }
 }
 
-impl Parts<'_> {
-    /// Every axis as it is before its first measurement.
-    pub fn start_axes(&mut self) {
-        let Frame { common, axes, .. } = &mut *self.frame;
-        for (index, axis) in axes.iter_mut().enumerate() {
-            let parameter = self.parameters.get(parameter_of(index, self.parameters));
-            let held = parameter.and_then(|p| p.held_value());
-            let k = held.or(parameter.and_then(|p| p.nominal));
-            *axis = Axis::start(common.noise, axis.own, k, common.period2);
-            if held.is_some() {
-                axis.source = Source::Held;
+/// An axis before its first measurement; what its parameter holds, or else its nominal value, predicts.
+#[inline(never)]
+fn start_axis(axis: &mut Axis, common: &Common, parameter: Option<&ParameterState>, contact: bool) {
+    *axis = Axis::start(common.noise, axis.own, None, common.period2);
+    if let Some(parameter) = parameter {
+        let held = parameter.held_value();
+        if let Some(k) = held.or(parameter.nominal) {
+            axis.source = if held.is_some() { Source::Held } else { Source::Nominal };
+            // In contact nothing that a parameter says counts.
+            if !contact {
+                axis.model = Model { k_t2: k * common.period2, c_t2: axis.own.drift_t2 };
             }
         }
-        self.heed_contact();
+    }
+}
+
+impl Parts<'_> {
+    /// Every axis as it is before its first measurement.
+    #[inline(never)]
+    pub fn start_axes(&mut self) {
+        let Frame { common, progress, axes } = &mut *self.frame;
+        let contact = progress.learning == Learning::Contact;
+        let last = self.parameters.len().saturating_sub(1);
+        for (index, axis) in axes.iter_mut().enumerate() {
+            start_axis(axis, common, self.parameters.get(index.min(last)), contact);
+        }
     }
 
     /// See [`super::Estimator::reset_identifier`], and for `hold` [`super::Estimator::reinitialise_identifier`].

@@ -5,6 +5,8 @@
 //! has all of that so many measurements later: two estimators of N axes with turns 0 and N + 1 never have a turn in the same
 //! tick where a round is at least 2 (N + 1) measurements.
 
+use crate::wide::Wide;
+
 /// Measurements within a round.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -33,7 +35,7 @@ impl Schedule {
     /// At this period and above there is time enough.
     const UNHURRIED: f64 = 5e-3;
 
-    pub fn new(axes: u32, block: u32, turn: u32, period: f64, coarse_steps: u32) -> Self {
+    pub fn new(axes: u32, block: u32, turn: u32, period: Wide, coarse_steps: u32) -> Self {
         let round = if block == 1 { 8 } else { block };
         let gains_every = if round <= 16 { round } else { 16 };
         let (weights_at, gains_at) = match block {
@@ -51,18 +53,14 @@ impl Schedule {
                 (shared_at, shared_at)
             }
         };
-        let mut events = 0_u32;
-        if round > 16 {
-            events = u32::MAX;
+        let events = if round > 16 {
+            u32::MAX
         } else {
-            for position in 0..round {
-                let begins = position < axes;
-                let completes = (position + 1) % round < axes;
-                if begins || completes || position == weights_at || position == gains_at {
-                    events |= 1 << position;
-                }
-            }
-        }
+            // Those who begin a block come first; what they complete, they complete one measurement earlier.
+            let begin = (1 << axes) - 1;
+            let shared = 1 << weights_at | 1 << gains_at;
+            (begin | 1 << (round - 1) | shared) & ((1 << round) - 1)
+        };
         Self {
             turn,
             round,
@@ -70,7 +68,7 @@ impl Schedule {
             gains_every,
             gains_at,
             events,
-            unhurried: period >= Self::UNHURRIED,
+            unhurried: period.bits() >= Self::UNHURRIED.to_bits(),
             staggered: block == 1 && coarse_steps > axes,
         }
     }

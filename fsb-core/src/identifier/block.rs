@@ -34,17 +34,16 @@ pub struct BlockDesign {
 impl BlockDesign {
     /// Blocks of `length` samples, at least one.
     pub(crate) fn new(length: u32) -> Self {
-        let m = f64::from(length);
-        let centre = (m - 1.0) / 2.0;
-        let unit_s = (m - 1.0) * (2.0 * m - 1.0) / 12.0;
+        // The products are exact in f32 up to 2048 samples.
+        let m = length as f32;
         Self {
-            length: m as f32,
-            per_length: (1.0 / m) as f32,
-            per_length2: (1.0 / (m * m)) as f32,
-            centre: centre as f32,
-            span: (m - 1.0) as f32,
-            unit_s: unit_s as f32,
-            unit_past: (centre * m - unit_s - m * m / 2.0) as f32,
+            length: m,
+            per_length: 1.0 / m,
+            per_length2: 1.0 / (m * m),
+            centre: 0.5 * (m - 1.0),
+            span: m - 1.0,
+            unit_s: (m - 1.0) * (2.0 * m - 1.0) / 12.0,
+            unit_past: (m + 1.0) * (2.0 * m + 1.0) / -12.0,
         }
     }
 }

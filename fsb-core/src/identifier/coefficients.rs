@@ -11,14 +11,17 @@
 
 use super::cascade::Stage;
 use crate::error::ConfigError;
-use crate::tuning::{Decay, Tuning, checked_period};
+use crate::tuning::{Decay, Tuning};
+use crate::wide::Wide;
 use crate::window::{Window, WindowDesign};
+use core::hint::black_box;
 
 /// Both sides of the identity are carried about 2^20 times larger than in physical units. This keeps the squares of the
 /// first windowed samples (g is of the order of (qT)²) in the normal range of f32 and costs nothing: the factor sits in
 /// constants. Which factor between 2^20 and 2^21 is free, and chosen so that the constants suffer least from rounding.
-const SCALE: f64 = 1_048_576.0;
-const SCALE_CHOICES: u32 = 512;
+const SCALE: Wide = Wide::new(1_048_576.0);
+/// From one choice to the next, relative to the smallest; exact in f32.
+const SCALE_STEP: Wide = Wide::new(1.0 / 512.0);
 
 /// Added to the input of every stage that has one, in scaled units: a cascade left without input settles here, instead of
 /// decaying through the subnormal numbers. All three stages of the position chain need it: the inputs that a constant
@@ -47,42 +50,54 @@ pub struct IdentifierDesign {
 }
 
 impl IdentifierDesign {
+    pub(crate) const BLANK: Self = Self {
+        window: WindowDesign::BLANK,
+        c: 0.0,
+        scale: 0.0,
+        rho: 0.0,
+        b1: 0.0,
+        b2_start: 0.0,
+        b3_start: 0.0,
+        b3_mixed: 0.0,
+        slope: 0.0,
+    };
+
     /// Constants for `tuning` at `period`, in s.
     ///
     /// # Errors
     /// Names `lambda`, `q` or `period` where λT or qT is not within 1e-6..=1 or the period not within 1e-6..=1e3 s.
     pub fn new(tuning: Tuning, period: f64) -> Result<Self, ConfigError> {
-        let decay = tuning.decay(checked_period("period", period)?, "lambda", "q")?;
-        Ok(Self::from_decay(&decay))
+        Ok(Self::from_decay(&tuning.named(period, &["lambda", "q"])?))
     }
 
+    #[inline(never)]
     pub(crate) fn from_decay(decay: &Decay) -> Self {
-        let constants = constants(decay);
-        let loss = |scale: f64| constants.iter().map(|x| rounding(scale * x)).fold(0.0, libm::fmax);
-        let mut best = (loss(SCALE), SCALE);
-        for choice in 1..SCALE_CHOICES {
-            // Exact in f32.
-            let scale = SCALE * (1.0 + f64::from(choice) / f64::from(SCALE_CHOICES));
-            let loss = loss(scale);
-            if loss < best.0 {
-                best = (loss, scale);
+        let Constants { weights, .. } = constants(decay, SCALE);
+        let (mut least, mut best) = (f32::INFINITY, Wide::ONE);
+        let mut factor = Wide::ONE;
+        while factor.bits() < 2_f64.to_bits() {
+            let loss = loss(&weights, factor);
+            if loss < least {
+                (least, best) = (loss, factor);
             }
+            factor = factor + SCALE_STEP;
         }
-        Self::at_scale(decay, best.1)
+        Self::at_scale(decay, SCALE * best)
     }
 
-    pub(crate) fn at_scale(decay: &Decay, scale: f64) -> Self {
-        let [b1, b2_start, b3_start, b3_mixed] = constants(decay).map(|x| (scale * x) as f32);
+    #[inline(never)]
+    pub(crate) fn at_scale(decay: &Decay, scale: Wide) -> Self {
+        let Constants { weights: [b1, half_b2, b3_start, half_b3], slope } = constants(decay, scale);
         Self {
             window: WindowDesign::new(decay),
-            c: decay.c as f32,
-            scale: scale as f32,
-            rho: decay.rho as f32,
-            b1,
-            b2_start,
-            b3_start,
-            b3_mixed,
-            slope: (scale * decay.c / (decay.p * decay.period * decay.period)) as f32,
+            c: decay.c.rounded(),
+            scale: scale.rounded(),
+            rho: decay.rho.rounded(),
+            b1: b1.rounded(),
+            b2_start: -2.0 * half_b2.rounded(),
+            b3_start: b3_start.rounded(),
+            b3_mixed: 2.0 * half_b3.rounded(),
+            slope: slope.rounded(),
         }
     }
 
@@ -101,22 +116,37 @@ impl IdentifierDesign {
     }
 }
 
-/// The constants of b1, and of the parts of b2 and b3 that fade with the window; in physical units.
-fn constants(decay: &Decay) -> [f64; 4] {
-    let Decay { period, c, p, alpha, rho } = *decay;
-    let base = 1.0 / (period * p * (period * p));
-    let one_minus_rho2 = alpha * (1.0 + rho);
-    [
-        base * c * c,
-        -2.0 * base * c * one_minus_rho2,
-        base * alpha * alpha * (1.0 + rho) / rho,
-        2.0 * base * c * one_minus_rho2 / rho,
-    ]
+/// `scale` times the constants of b1, and of the parts of b2 and b3 that fade with the window, without their factors of two;
+/// and of the slope.
+struct Constants {
+    weights: [Wide; 4],
+    slope: Wide,
 }
 
-/// What rounding to f32 takes from `x`, relative to it.
-fn rounding(x: f64) -> f64 {
-    libm::fabs(f64::from(x as f32) / x - 1.0)
+#[inline(never)]
+fn constants(decay: &Decay, scale: Wide) -> Constants {
+    let Decay { period, c, p, alpha, rho, mixed } = *decay;
+    let tp = period * p;
+    let base = scale.over(tp * tp);
+    let base_c = base * c;
+    let half_b3 = base_c * mixed;
+    Constants { weights: [base_c * c, half_b3 * rho, base * alpha * mixed, half_b3], slope: base_c * p }
+}
+
+/// The most that rounding to f32 takes from one of the positive `weights` times `factor`, over itself: of its 53 bits the last
+/// 29; in units of 2^-32.
+#[inline(never)]
+fn loss(weights: &[Wide; 4], factor: Wide) -> f32 {
+    let mut most = 0.0;
+    // The compiler is not to write this out four times.
+    for weight in black_box(weights.as_slice()) {
+        let bits = (factor * *weight).bits();
+        let last = (bits << 3) as i32;
+        let first = (bits >> 32) as u32 & 0x000f_ffff | 0x0010_0000;
+        let lost = last.unsigned_abs() as f32 / first as f32;
+        most = if lost > most { lost } else { most };
+    }
+    most
 }
 
 /// The weights at one sample, shared by every axis with the same tuning.

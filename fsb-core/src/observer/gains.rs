@@ -6,7 +6,8 @@
 //! as in (57) and (59), so there is no singularity to stay away from and no ε.
 
 use crate::error::ConfigError;
-use crate::tuning::{Decay, Tuning, checked_period};
+use crate::tuning::{Decay, Tuning};
+use crate::wide::Wide;
 use crate::window::{Window, WindowDesign};
 
 /// Constants of an observer: a tuning at the measurement period.
@@ -26,33 +27,37 @@ pub struct ObserverDesign {
 }
 
 impl ObserverDesign {
+    pub(crate) const BLANK: Self = Self {
+        window: WindowDesign::BLANK,
+        period: 0.0,
+        per_period: 0.0,
+        c: 0.0,
+        p: 0.0,
+        p2: 0.0,
+        a_factor: 0.0,
+        l2_factor: 0.0,
+    };
+
     /// Constants for `tuning` at the measurement `period`, in s.
     ///
     /// # Errors
     /// Names `lambda`, `q` or `period`; ranges as for the identifier.
     pub fn new(tuning: Tuning, period: f64) -> Result<Self, ConfigError> {
-        Self::named(tuning, period, "lambda", "q")
+        Ok(Self::from_decay(&tuning.named(period, &["lambda", "q"])?))
     }
 
-    pub(crate) fn named(
-        tuning: Tuning,
-        period: f64,
-        lambda: &'static str,
-        q: &'static str,
-    ) -> Result<Self, ConfigError> {
-        Ok(Self::from_decay(&tuning.decay(checked_period("period", period)?, lambda, q)?))
-    }
-
+    #[inline(never)]
     pub(crate) fn from_decay(d: &Decay) -> Self {
+        let p2 = d.p * d.p;
         Self {
             window: WindowDesign::new(d),
-            period: d.period as f32,
-            per_period: (1.0 / d.period) as f32,
-            c: d.c as f32,
-            p: d.p as f32,
-            p2: (d.p * d.p) as f32,
-            a_factor: (d.alpha * (1.0 + d.rho) / d.rho) as f32,
-            l2_factor: (d.p * d.p * d.alpha * d.alpha * (1.0 + d.rho) / d.rho) as f32,
+            period: d.period.rounded(),
+            per_period: Wide::ONE.over(d.period).rounded(),
+            c: d.c.rounded(),
+            p: d.p.rounded(),
+            p2: p2.rounded(),
+            a_factor: d.mixed.rounded(),
+            l2_factor: (p2 * d.alpha * d.mixed).rounded(),
         }
     }
 }
@@ -61,6 +66,11 @@ impl ObserverDesign {
     /// 1 - e^(-λT)
     pub(crate) const fn c(&self) -> f32 {
         self.c
+    }
+
+    /// e^(-λT)
+    pub(crate) const fn p(&self) -> f32 {
+        self.p
     }
 
     /// Moves the window of the gains to the next sample.

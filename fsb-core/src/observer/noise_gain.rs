@@ -6,6 +6,7 @@
 
 use super::gains::{Gains, ObserverDesign};
 use crate::tuning::Tuning;
+use crate::wide::Wide;
 use crate::window::Window;
 
 /// Covariance of (ŷ, T v̂) for measurement noise of variance one.
@@ -67,7 +68,7 @@ impl NoiseGain {
             libm::fmin(f64::from(n) / f64::from(Self::STEPS), 8.0 / (tuning.lambda * period * f64::from(Self::STEPS)))
         };
         let step = libm::fmax(samples, 1.0) * period;
-        let design = ObserverDesign::from_decay(&tuning.plain_decay(step));
+        let design = ObserverDesign::from_decay(&tuning.decay(Wide::new(step)));
         let steps = n.min(Self::STEPS);
         let begin = f64::from(n) * period - f64::from(steps) * step;
         // Begins at the first sample, or so long ago that it does not matter where.

@@ -15,8 +15,10 @@
 use super::noise_level::NoiseLevel;
 use crate::identifier::{Coefficients, IdentifierDesign};
 use crate::snapshot::stored;
-use crate::tuning::Tuning;
+use crate::tuning::{Tuning, decayed};
+use crate::wide::Wide;
 use crate::window::Window;
+use core::hint::black_box;
 
 /// Constants of the covariance recursion.
 #[derive(Clone, Copy, Debug)]
@@ -46,30 +48,46 @@ pub(crate) struct CovarianceDesign {
 
 impl CovarianceDesign {
     /// λ D T is kept at about this; steps of more than half of it, or so, are taken as they are.
-    const COARSE: f64 = 0.08;
+    const COARSE: f32 = 0.08;
+
+    pub const BLANK: Self = Self {
+        coarse: IdentifierDesign::BLANK,
+        c: 0.0,
+        p: 0.0,
+        cp: 0.0,
+        c2p: 0.0,
+        steps: 0,
+        stride: 0.0,
+        per_stride: 0.0,
+        mu: 0.0,
+        noise_forgetting: 0.0,
+        noise_memory: 0,
+        forgetting: 0.0,
+    };
 
     /// For an identifier at `period` whose memory fades by e^(-`fading`) in each step, together with all the `sharing` axes
     /// of a parameter.
-    pub fn new(tuning: Tuning, period: f64, fading: f64, sharing: u32) -> Self {
-        let strides = Self::COARSE / (libm::fmax(tuning.lambda, tuning.q) * period);
-        let stride = if strides >= 1.75 { libm::round(strides) } else { 1.0 };
-        let decay = tuning.plain_decay(stride * period);
-        let (c, p) = (decay.c, decay.p);
-        let forgetting = |steps: f64| -libm::expm1(-steps * fading) as f32;
-        Self {
-            coarse: IdentifierDesign::at_scale(&decay, 1.0),
-            c: c as f32,
-            p: p as f32,
-            cp: (c * p) as f32,
-            c2p: (c * c * p) as f32,
-            steps: stride as u32,
-            stride: stride as f32,
-            per_stride: (1.0 / stride) as f32,
-            mu: 1.0 - forgetting(stride),
-            noise_forgetting: forgetting(2.0 * stride),
-            noise_memory: NoiseLevel::memory(stride * fading),
-            forgetting: forgetting(stride / f64::from(sharing)),
-        }
+    #[inline(never)]
+    pub fn fill(&mut self, tuning: &Tuning, period: Wide, fading: Wide, sharing: u32) {
+        let tuning = black_box(tuning);
+        let (lambda, q) = (Wide::new(tuning.lambda).rounded(), Wide::new(tuning.q).rounded());
+        let fastest = if lambda > q { lambda } else { q };
+        let strides = Self::COARSE / (fastest * period.rounded());
+        // At least 1.75, rounded to the nearest.
+        let steps = if strides >= 1.75 { (strides + 0.5) as u32 } else { 1 };
+        let stride = Wide::of(steps);
+        self.coarse = IdentifierDesign::at_scale(&tuning.decay(stride * period), Wide::ONE);
+        let (c, p) = (self.coarse.c, 1.0 - self.coarse.c);
+        (self.c, self.p, self.cp, self.c2p) = (c, p, c * p, c * c * p);
+        self.steps = steps;
+        self.stride = steps as f32;
+        self.per_stride = 1.0 / self.stride;
+        let faded = stride * fading;
+        let forgetting = decayed(faded).rounded();
+        self.mu = 1.0 - forgetting;
+        self.noise_forgetting = forgetting * (2.0 - forgetting);
+        self.noise_memory = NoiseLevel::memory(faded.rounded());
+        self.forgetting = decayed(faded.over(Wide::of(sharing))).rounded();
     }
 
     /// A x, A = [[p, cp, c²p], [0, p, cp], [0, 0, p]].

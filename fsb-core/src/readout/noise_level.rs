@@ -26,7 +26,7 @@ pub struct NoiseLevel {
 
 impl NoiseLevel {
     /// The longest memory, in values.
-    const MEMORY: f64 = 256.0;
+    const MEMORY: f32 = 256.0;
     /// Values before which the level is not trusted.
     const ENOUGH: u16 = 8;
     /// The memory of the misfit, in values: about 2.5/λ.
@@ -34,9 +34,13 @@ impl NoiseLevel {
     /// A residual of so many times the variance of the measurement noise may still be noise.
     const EXPLAINED: f32 = 25.0;
 
+    /// Nothing seen yet.
+    pub(crate) const UNKNOWN: Self = Self { fine: 0.0, slow: 0.0, residual: 0.0, signal: 0.0, values: 0 };
+
     /// The memory of a read-out that forgets by e^(-`fading`) from value to value.
-    pub(crate) fn memory(fading: f64) -> u16 {
-        libm::fmax(libm::fmin(1.0 / fading, Self::MEMORY), 16.0) as u16
+    pub(crate) fn memory(fading: f32) -> u16 {
+        // Infinite where nothing is forgotten; no number of values is more than u32 holds.
+        (1.0 / fading).clamp(16.0, Self::MEMORY) as u32 as u16
     }
 
     /// A level known beforehand; it counts as much as the least number of values that is trusted.
@@ -87,18 +91,10 @@ impl NoiseLevel {
 }
 
 /// Variance of the difference of two innovations that follow each other over that of the noise, for an observer with
-/// p = e^(-λT): the sum of squares of the impulse response of (1 - z⁻¹)³/(1 - p z⁻¹)². After 64 terms nothing is left of it.
+/// p = e^(-λT): the sum of squares of the impulse response of (1 - z⁻¹)³/(1 - p z⁻¹)². It is 4 (5 - p²)/(1 + p)³.
 pub(crate) fn innovation_step_gain(p: f32) -> f32 {
-    // The impulse, differenced three times.
-    let mut inputs = [1.0, -3.0, 3.0, -1.0].into_iter();
-    let (mut before, mut last, mut sum) = (0.0, 0.0, 0.0);
-    for _ in 0..64 {
-        let response = inputs.next().unwrap_or(0.0) + p * (2.0 * last - p * before);
-        before = last;
-        last = response;
-        sum += response * response;
-    }
-    sum
+    let q = 1.0 + p;
+    4.0 * (5.0 - p * p) / (q * q * q)
 }
 
 stored!(NoiseLevel { fine, slow, residual, signal, values });

@@ -3,7 +3,8 @@
 use super::ratio::Ratio;
 use super::status::ParameterStatus;
 use crate::accumulator::Accumulator;
-use crate::error::{ConfigError, finite, positive};
+use crate::checks::{Checks, Range, Rule, rule};
+use crate::root::root;
 use crate::snapshot::stored;
 
 /// An identified parameter: k of (15), 1/m or 1/I.
@@ -19,7 +20,7 @@ pub struct Parameter {
 impl Parameter {
     /// Standard deviation of k̂. Uses a square root: not for the tick.
     pub fn sd(&self) -> f32 {
-        libm::sqrtf(self.variance)
+        root(self.variance)
     }
 
     /// m = 1/k, and its standard deviation sd(k)/k².
@@ -32,6 +33,7 @@ impl Parameter {
 /// When k̂ counts as valid. Plain data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct ParameterRule {
     /// The smallest k that can be right; positive. A smaller k̂ is reported, never used.
     pub min: f64,
@@ -41,40 +43,27 @@ pub struct ParameterRule {
     pub max_relative_sd: f64,
 }
 
-impl Default for ParameterRule {
+impl ParameterRule {
     /// Any positive k that f32 handles well, known to 5 %.
+    pub const DEFAULT: Self = Self { min: 1e-6, max: 1e9, max_relative_sd: 0.05 };
+}
+
+impl Default for ParameterRule {
+    /// [`DEFAULT`](Self::DEFAULT).
     fn default() -> Self {
-        Self { min: 1e-6, max: 1e9, max_relative_sd: 0.05 }
+        Self::DEFAULT
     }
 }
 
-impl CheckedRule {
-    /// Accepts nothing.
-    pub const NEVER: Self = Self { min: f32::MAX, max: 0.0, relative_variance: 0.0, limit_to_stay: 0.0 };
-}
-
 impl ParameterRule {
-    pub(crate) fn checked(&self) -> Result<CheckedRule, ConfigError> {
-        let min = positive("rule.min", self.min)?;
-        if finite("rule.max", self.max)? <= min {
-            return Err(ConfigError::InvertedRange("rule.min"));
-        }
-        let share = positive("rule.max_relative_sd", self.max_relative_sd)?;
-        for (name, value) in [("rule.min", min), ("rule.max", self.max)] {
-            if !(1e-15..=1e15).contains(&value) {
-                return Err(ConfigError::OutOfRange(name));
-            }
-        }
-        if !(1e-15..=1e6).contains(&share) {
-            return Err(ConfigError::OutOfRange("rule.max_relative_sd"));
-        }
-        let relative_variance = (share * share) as f32;
-        Ok(CheckedRule {
-            min: min as f32,
-            max: self.max as f32,
-            relative_variance,
-            limit_to_stay: HYSTERESIS * relative_variance,
-        })
+    #[inline(never)]
+    pub(crate) fn checked(&self, checks: &mut Checks) -> CheckedRule {
+        const LIMITS: [Rule; 2] = [*rule!("rule.min", Range::PARAMETER), *rule!("rule.max", Range::PARAMETER)];
+        const SHARE: Range = Range::positive(1e-15, 1e6);
+        let (min, max) = checks.limits(&LIMITS, [self.min, self.max], false);
+        let share = checks.number(rule!("rule.max_relative_sd", SHARE), self.max_relative_sd);
+        let relative_variance = share * share;
+        CheckedRule { min, max, relative_variance, limit_to_stay: HYSTERESIS * relative_variance }
     }
 }
 
@@ -119,6 +108,13 @@ pub(crate) struct ParameterState {
 impl ParameterState {
     /// What rounding leaves of k, however long it is looked at.
     const ROUNDING: f32 = 1e-7;
+
+    /// No parameter yet.
+    pub const BLANK: Self = {
+        let rule = CheckedRule { min: 0.0, max: 0.0, relative_variance: 0.0, limit_to_stay: 0.0 };
+        let nothing = Parameter { value: 0.0, variance: 0.0 };
+        Self { variance: 0.0, fresh: nothing, ..Self::start(0, None, rule) }
+    };
 
     /// Nothing known, to be read out of so many axes: no quotient, and a variance above any limit.
     pub const fn start(members: u8, nominal: Option<f32>, rule: CheckedRule) -> Self {

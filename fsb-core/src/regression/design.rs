@@ -2,13 +2,14 @@
 
 use super::config::{DragConfig, Identify};
 use super::velocity::VelocityDesign;
-use crate::error::{ConfigError, finite, positive};
-use crate::estimator::{limit, samples};
+use crate::checks::{Checks, Range, Rule, rounded_up};
+use crate::error::ConfigError;
 use crate::identifier::IdentifierDesign;
 use crate::moments::Substep;
 use crate::observer::ObserverDesign;
 use crate::readout::CheckedRule;
-use crate::tuning::checked_period;
+use crate::tuning::decayed;
+use crate::wide::Wide;
 use crate::window::WindowDesign;
 
 /// What does not depend on the axis.
@@ -74,56 +75,66 @@ const UNHURRIED: f64 = 5e-3;
 
 impl Common {
     pub fn new<const N: usize>(config: &DragConfig<N>) -> Result<Self, ConfigError> {
-        let control = checked_period("period", config.period)?;
-        if config.substeps == 0 {
-            return Err(ConfigError::Zero("substeps"));
-        }
-        if config.substeps > 65_535 {
-            return Err(ConfigError::OutOfRange("substeps"));
-        }
-        let period = checked_period("substeps", control * f64::from(config.substeps))?;
-        let decay = config.identifier.decay(period, "identifier.lambda", "identifier.q")?;
-        let observer_decay = config.observer.decay(period, "observer.lambda", "observer.q")?;
+        let mut checks = Checks::new();
+        let substeps = config.substeps.max(1);
+        checks.number(&Rule("period", &Range::PERIOD), config.period);
+        checks.count("substeps", config.substeps);
+        let period = config.period * f64::from(substeps);
+        checks.number(&Rule("substeps", &Range::PERIOD), period);
+        config.identifier.checked(Wide::new(period), &["identifier.lambda", "identifier.q"], &mut checks);
+        config.observer.checked(Wide::new(period), &["observer.lambda", "observer.q"], &mut checks);
+        checks.outcome()?;
+        let decay = config.identifier.decay(Wide::new(period));
         let identifier = IdentifierDesign::from_decay(&decay);
         let rate = libm::fmax(config.identifier.lambda, config.identifier.q);
         let row_every = libm::fmax(libm::floor(ROW / (rate * period)), 1.0);
         let row = row_every * period;
         let fading = config.memory.fading(row)?;
         let gains_every = if period < UNHURRIED { 8 } else { 1 };
-        let square = |name, value| positive(name, value).map(|x| (x * x) as f32);
-        if let Some(k) = config.nominal
-            && !(1e-15..=1e15).contains(&positive("nominal", k)?)
-        {
-            return Err(ConfigError::OutOfRange("nominal"));
+        if let Some(k) = config.nominal {
+            checks.number(&Rule("nominal", &Range::PARAMETER), k);
         }
+        let rule = config.rule.checked(&mut checks);
+        let mut square = |rule: &'static Rule, value| {
+            checks.number(rule, value);
+            (value * value) as f32
+        };
+        let excitation2 = square(&Rule("excitation", &Range::POSITIVE), config.excitation);
+        let drag_variance = square(&Rule("drag_sd_limit", &Range::POSITIVE), config.drag_sd_limit);
+        let disturbance_variance = square(&Rule("disturbance_sd_limit", &Range::POSITIVE), config.disturbance_sd_limit);
+        let parameter_settle = checks.samples("parameter_settle", config.parameter_settle, Wide::new(period));
+        let state_settle = checks.samples("state_settle", config.state_settle, Wide::new(period));
+        checks.number(&Rule("position_limit", &Range::LIMIT), config.position_limit);
+        checks.number(&Rule("input_limit", &Range::LIMIT), config.input_limit);
+        checks.outcome()?;
         let row_every = (row_every as u32).max(1);
         Ok(Self {
-            substeps: config.substeps,
-            substep: Substep::new(config.substeps)?,
-            substep_share: (1.0 / f64::from(config.substeps)) as f32,
+            substeps,
+            substep: Substep::of(substeps),
+            substep_share: 1.0 / substeps as f32,
             velocity: VelocityDesign::from_decay(&decay, f64::from(identifier.scale)),
             identifier,
-            observer: ObserverDesign::from_decay(&observer_decay),
-            observer_stride: WindowDesign::new(&config.observer.plain_decay(period * f64::from(gains_every))),
+            observer: ObserverDesign::from_decay(&config.observer.decay(Wide::new(period))),
+            observer_stride: WindowDesign::new(&config.observer.decay(Wide::new(period * f64::from(gains_every)))),
             gains_every,
             row_every,
             items_per_measurement: items(N as u32).div_ceil(row_every),
-            forgetting: -libm::expm1(-fading) as f32,
+            forgetting: decayed(Wide::new(fading)).rounded(),
             colour: (0.79 / (config.identifier.lambda * row)) as f32,
             row_rate2: ((config.identifier.lambda * row) * (config.identifier.lambda * row)) as f32,
             per_scale: 1.0 / identifier.scale,
             per_scale2: 1.0 / identifier.scale2(),
             nominal: config.nominal.map(|k| k as f32),
-            rule: config.rule.checked()?,
-            excitation2: square("excitation", config.excitation)?,
-            drag_variance: square("drag_sd_limit", config.drag_sd_limit)?,
-            disturbance_variance: square("disturbance_sd_limit", config.disturbance_sd_limit)?,
+            rule,
+            excitation2,
+            drag_variance,
+            disturbance_variance,
             period: period as f32,
-            parameter_settle: samples("parameter_settle", config.parameter_settle, period)?,
-            state_settle: samples("state_settle", config.state_settle, period)?,
-            late_settle: samples("observer.lambda", 8.0 / config.observer.lambda, period)?,
-            position_limit: limit("position_limit", config.position_limit)?,
-            input_limit: limit("input_limit", config.input_limit)?,
+            parameter_settle,
+            state_settle,
+            late_settle: rounded_up(Wide::new(8.0 / config.observer.lambda / period)),
+            position_limit: config.position_limit as f32,
+            input_limit: config.input_limit as f32,
         })
     }
 }
@@ -135,9 +146,9 @@ pub(super) const fn items(axes: u32) -> u32 {
 
 impl AxisDesign {
     pub fn new(drift: f64, identify: Identify) -> Result<Self, ConfigError> {
-        if finite("drift", drift)?.abs() > 1e6 {
-            return Err(ConfigError::OutOfRange("drift"));
-        }
-        Ok(Self { drift: drift as f32, identify })
+        let mut checks = Checks::new();
+        let drift = checks.signed(&Rule("drift", &Range::MAGNITUDE), drift);
+        checks.outcome()?;
+        Ok(Self { drift, identify })
     }
 }

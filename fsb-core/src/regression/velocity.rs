@@ -16,7 +16,8 @@
 use crate::accumulator::Accumulator;
 use crate::error::ConfigError;
 use crate::identifier::{IdentifierDesign, KEEP_NORMAL};
-use crate::tuning::{Decay, Tuning, checked_period};
+use crate::tuning::{Decay, Tuning};
+use crate::wide::Wide;
 use crate::window::{Window, WindowDesign};
 
 /// Constants of ẑv for a tuning at a period.
@@ -39,7 +40,7 @@ impl VelocityDesign {
     /// # Errors
     /// As [`IdentifierDesign::new`].
     pub fn new(tuning: Tuning, period: f64) -> Result<Self, ConfigError> {
-        let decay = tuning.decay(checked_period("period", period)?, "lambda", "q")?;
+        let decay = tuning.named(period, &["lambda", "q"])?;
         Ok(Self::from_decay(&decay, f64::from(IdentifierDesign::from_decay(&decay).scale)))
     }
 
@@ -49,7 +50,7 @@ impl VelocityDesign {
     }
 
     pub(crate) fn from_decay(decay: &Decay, scale: f64) -> Self {
-        let Decay { period, c, p, alpha, rho } = *decay;
+        let [period, c, p, alpha, rho] = [decay.period, decay.c, decay.p, decay.alpha, decay.rho].map(Wide::get);
         let base = scale / (2.0 * period);
         let opening = base * alpha * (1.0 + rho);
         Self {

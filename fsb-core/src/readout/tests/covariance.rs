@@ -3,6 +3,7 @@
 use super::super::{CovarianceDesign, NoiseCross, NoiseShape};
 use crate::identifier::{Cascade, Coefficients, IdentifierDesign};
 use crate::tuning::Tuning;
+use crate::wide::Wide;
 use crate::window::Window;
 
 const STEPS: usize = 120;
@@ -21,9 +22,10 @@ fn it_is_the_sum_over_single_samples() {
         (Tuning { lambda: 10.0, q: 30.0 }, 0.0),
         (Tuning { lambda: 6.0, q: 2.0 }, 0.05),
     ] {
-        let design = CovarianceDesign::new(tuning, PERIOD, fading, 1);
+        let mut design = CovarianceDesign::BLANK;
+        design.fill(&tuning, Wide::new(PERIOD), Wide::new(fading), 1);
         assert_eq!(design.steps, 1, "every step counts at this rate");
-        let identifier = IdentifierDesign::at_scale(&tuning.plain_decay(PERIOD), 1.0);
+        let identifier = IdentifierDesign::at_scale(&tuning.decay(Wide::new(PERIOD)), Wide::ONE);
         let mut answers = [Cascade::default(); STEPS];
         let mut sums = [0.0_f64; STEPS];
         let (mut shape, mut cross, mut variance) = (NoiseShape::START, NoiseCross::default(), 0.0_f64);

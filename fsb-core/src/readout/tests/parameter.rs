@@ -1,18 +1,19 @@
 //! When a parameter may be used.
 
 use super::super::{ParameterRule, ParameterState, ParameterStatus, Readout};
+use crate::checks::Checks;
 use crate::snapshot::{Archive, Stored};
 
 /// k from 0.5 to 2, valid from 5 % on.
 fn rule(max_relative_sd: f64) -> ParameterState {
     let rule = ParameterRule { min: 0.5, max: 2.0, max_relative_sd };
-    ParameterState::start(1, None, rule.checked().expect("valid"))
+    ParameterState::start(1, None, rule.checked(&mut Checks::new()))
 }
 
 /// Valid whatever it is.
 fn open() -> ParameterState {
     let rule = ParameterRule { max_relative_sd: 1e6, ..ParameterRule::default() };
-    ParameterState::start(1, None, rule.checked().expect("valid"))
+    ParameterState::start(1, None, rule.checked(&mut Checks::new()))
 }
 
 fn variance_of(state: &mut ParameterState) -> f32 {
@@ -178,7 +179,7 @@ fn the_sums_of_coarse_steps_fade() {
 /// The variance is due when all axes that take part have taken the step.
 #[test]
 fn every_member_counts() {
-    let rule = ParameterRule::default().checked().expect("valid");
+    let rule = ParameterRule::default().checked(&mut Checks::new());
     let mut state = ParameterState::start(3, None, rule);
     let due = |state: &mut ParameterState| {
         state.step_coarsely(1.0, 0.0, 0.0);
