@@ -15,7 +15,6 @@ pub mod moments;
 pub mod observer;
 pub mod readout;
 pub mod regression;
-mod root;
 pub mod snapshot;
 pub mod tuning;
 pub mod vehicle;

@@ -2,7 +2,7 @@
 //! estimator is moved.
 
 use super::config::SharedConfig;
-use super::design::{AxisDesign, ParameterDesign, Shape};
+use super::design::{AxisDesign, Common, ParameterDesign, Shape};
 use super::parts::{Frame, Parts};
 use super::shared::Progress;
 use crate::checks::Checks;
@@ -53,10 +53,15 @@ impl<'a> Configuring<'a> {
     /// Starts the estimator.
     ///
     /// # Errors
-    /// As [`super::EstimatorDesign::new`], of what was given first. The estimator is of no use then.
+    /// As [`super::EstimatorDesign::new`], of what was given first. The estimator then takes nothing in and hands nothing out,
+    /// until it is configured anew.
     #[inline(never)]
     pub fn finish(mut self) -> Result<(), ConfigError> {
         self.parts.start_axes();
-        self.checks.outcome()
+        let outcome = self.checks.outcome();
+        if outcome.is_err() {
+            self.parts.frame.common.position_limit = Common::NOTHING;
+        }
+        outcome
     }
 }

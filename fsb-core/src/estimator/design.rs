@@ -143,6 +143,9 @@ impl Shape {
 }
 
 impl Common {
+    /// No measurement is within this limit.
+    pub const NOTHING: f32 = -1.0;
+
     /// Nothing.
     pub const BLANK: Self = Self {
         substeps: 0,
@@ -183,7 +186,7 @@ impl Common {
         parameter_settle: 0,
         state_settle: 0,
         late_settle: 0,
-        position_limit: 0.0,
+        position_limit: Self::NOTHING,
         input_limit: 0.0,
         observer_tuning: Tuning { lambda: 0.0, q: 0.0 },
         measurement_period: 0.0,

@@ -96,7 +96,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         Ok(estimator)
     }
 
-    /// Of no use before it is configured: for storage that is there already, see [`configuring`](Self::configuring).
+    /// Takes nothing in and hands nothing out before it is configured: for storage that is there already, see
+    /// [`configuring`](Self::configuring).
     #[inline(always)]
     pub fn unconfigured() -> Self {
         Self { frame: Frame::blank(), parameters: [ParameterState::BLANK; P] }

@@ -16,10 +16,11 @@ pub(super) struct Frame<A: ?Sized> {
 }
 
 impl<const N: usize> Frame<[Axis; N]> {
-    /// Before it is configured.
+    /// Before it is configured: takes nothing in, and hands nothing out.
     #[inline(never)]
     pub fn blank() -> Self {
-        Self { progress: Progress::start(&Common::BLANK), axes: [Axis::default(); N], common: Common::BLANK }
+        let axis = Axis { usable_at: u32::MAX, ..Axis::default() };
+        Self { progress: Progress::start(&Common::BLANK), axes: [axis; N], common: Common::BLANK }
     }
 }
 

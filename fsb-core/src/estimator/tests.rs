@@ -2,9 +2,10 @@
 
 use super::{Estimator, EstimatorConfig};
 use crate::accumulator::Accumulator;
+use crate::error::ConfigError;
 use crate::guard::{GuardConfig, Guarded};
 use crate::observer::Observer;
-use crate::readout::ParameterStatus;
+use crate::readout::{ParameterRule, ParameterStatus};
 
 /// A swing under a known force, k = 2; returns the number of ticks with a valid state.
 fn swing(estimator: &mut Estimator<1, 1>, from: u32, ticks: u32) -> u32 {
@@ -77,4 +78,24 @@ fn what_is_no_number_is_a_fault() {
     }
     assert_eq!(guarded.rejections().faults, 3);
     assert!((guarded.parameters()[0].expect("identified anew").value - 2.0).abs() < 1e-3);
+}
+
+/// Neither before it is configured nor after a configuration that was refused does an estimator take anything in or hand anything out.
+#[test]
+fn without_a_configuration_there_is_nothing() {
+    let mut refused = Estimator::<1, 1>::new(&EstimatorConfig::new(1e-3)).expect("valid");
+    assert_eq!(swing(&mut refused, 0, 100), 0, "no parameter to predict with yet");
+    let mut configuring = refused.configuring();
+    configuring.shared(&EstimatorConfig::<1, 1> { position_limit: -1.0, ..EstimatorConfig::new(1e-3) }.shared());
+    configuring.drift(0, 0.0);
+    configuring.parameter(0, 2.0, &ParameterRule::DEFAULT);
+    assert_eq!(configuring.finish(), Err(ConfigError::NonPositive("position_limit")));
+    for mut estimator in [Estimator::<1, 1>::unconfigured(), refused] {
+        for position in [0.0, 0.3, -0.0] {
+            estimator.measure(&[Some(position)]).expect("in step");
+            estimator.apply(&[1.0]);
+            assert_eq!((estimator.states(), estimator.parameters()), ([None], [None]));
+            assert!(!estimator.has_started());
+        }
+    }
 }

@@ -4,7 +4,6 @@ use super::ratio::Ratio;
 use super::status::ParameterStatus;
 use crate::accumulator::Accumulator;
 use crate::checks::{Checks, Range, Rule, rule};
-use crate::root::root;
 use crate::snapshot::stored;
 
 /// An identified parameter: k of (15), 1/m or 1/I.
@@ -20,7 +19,7 @@ pub struct Parameter {
 impl Parameter {
     /// Standard deviation of k̂. Uses a square root: not for the tick.
     pub fn sd(&self) -> f32 {
-        root(self.variance)
+        libm::sqrtf(self.variance)
     }
 
     /// m = 1/k, and its standard deviation sd(k)/k².
