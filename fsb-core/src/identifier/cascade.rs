@@ -44,7 +44,7 @@ impl Cascade {
         self.x4.add(c * (self.x5.value() - self.x4.value()));
     }
 
-    /// [`step`](Self::step) and [`fold`](Self::fold) in one; [`keep_normal`](Self::keep_normal) is due now and then.
+    /// [`step`](Self::step) and [`fold`](Self::fold) in one. Every 32 steps or sooner [`keep_normal`](Self::keep_normal) is due.
     #[inline(always)]
     pub fn step_folded(&mut self, y: f32, s: f32, design: &IdentifierDesign, at: &Coefficients) {
         let c = design.c;
@@ -68,9 +68,10 @@ impl Cascade {
         self.x6.fold();
     }
 
-    /// Stages that are left without input do not end among the subnormal numbers.
+    /// Keeps stages that are left without input from ending among the subnormal numbers; [`fold`](Self::fold) does so as well.
+    /// Cost: 4 operations.
     #[inline(always)]
-    pub(crate) fn keep_normal(&mut self) {
+    pub fn keep_normal(&mut self) {
         for stage in [&mut self.x1, &mut self.x2, &mut self.x3, &mut self.x6] {
             stage.add(KEEP_NORMAL_AT_FOLD);
         }
