@@ -91,7 +91,8 @@ impl Parts<'_> {
         let round =
             SingleRound { stage: common.identifier.stage(), at: clock.at, zu: clock.unit.zu(), open: clock.blocks > 2 };
         // The axis that takes its coarse step, and how far that is from one axis to the next.
-        let (apart, mut until) = (u32::from(schedule.staggered), clock.stride);
+        let apart = u32::from(schedule.staggered);
+        let mut until = if clock.is_shaped(common) { clock.stride } else { u32::MAX };
         until = until.wrapping_sub(apart);
         let of_next = usize::from(self.parameters.len() != 1);
         let mut of = 0;

@@ -33,8 +33,8 @@ impl Axis {
         if common.any_drift {
             z2 -= self.own.drift * clock.unit.zu();
         }
-        let coarse = clock.stride == 0;
-        if coarse {
+        let coarse = clock.stride == 0 && clock.is_shaped(common);
+        if clock.stride == 0 {
             self.cascade.keep_normal();
         }
         // The window is zero in the first two blocks.
@@ -122,19 +122,16 @@ impl Axis {
         common: &Common,
     ) {
         let covariance = &common.covariance;
-        // The covariance of the cascade is that of a filled one from its third step on.
-        if clock.blocks > 2 * covariance.steps {
-            let step = self.observer.innovation() - self.innovation_before;
-            // With the quotient of this very moment: the one read last may be from before the take-off.
-            let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
-            let residual = z2 - parameter.ratio.quotient() * z0;
-            self.noise.add(
-                step * step * common.innovation_to_mean,
-                residual * residual * to_mean,
-                z2 * z2 * to_mean,
-                covariance.noise_memory,
-            );
-        }
+        let step = self.observer.innovation() - self.innovation_before;
+        // With the quotient of this very moment: the one read last may be from before the take-off.
+        let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
+        let residual = z2 - parameter.ratio.quotient() * z0;
+        self.noise.add(
+            step * step * common.innovation_to_mean,
+            residual * residual * to_mean,
+            z2 * z2 * to_mean,
+            covariance.noise_memory,
+        );
         let (up, down) = weight(common.readout, z2, z0);
         let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());

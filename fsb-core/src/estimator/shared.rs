@@ -146,6 +146,13 @@ impl IdentifierClock {
         self.position
     }
 
+    /// Whether the covariance is that of noise: in its first two coarse steps the window is zero, and what it says is rounding,
+    /// while the sums have begun to tell.
+    #[inline(always)]
+    pub const fn is_shaped(&self, common: &Common) -> bool {
+        self.blocks > 2 * common.covariance.steps
+    }
+
     /// The weights for the present block, for all axes, and every D-th time a coarse step.
     #[inline(never)]
     pub fn step(&mut self, common: &Common) {
