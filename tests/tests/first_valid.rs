@@ -3,41 +3,60 @@
 //! In the first coarse steps of the covariance the window is zero, and a variance made of them is rounding: of either sign, and
 //! a parameter that took a positive one for true would be valid with nothing known.
 
+use fsb_core::readout::ParameterStatus;
 use fsb_core::{Estimator, EstimatorConfig, Tuning};
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
-const K: f64 = 0.4;
 const SIGMA: f64 = 1e-3;
 const RUNS: u64 = 40;
+const SECONDS: f64 = 6.0;
 
-/// A mass pushed to and fro, with noise: what the parameter was off when it was first valid, in its own standard deviations,
-/// and for how many of the first samples it was not.
-fn first(config: &EstimatorConfig<1, 1>, seed: u64) -> Option<(f64, u32)> {
+/// Three axes that share k, pushed to and fro, with noise. What k̂ was off when it was first valid, in its own standard
+/// deviations, and when: from the start, or after a re-initialisation with another mass, the noise being known then.
+fn first(config: &EstimatorConfig<3, 1>, again: bool, seed: u64) -> Option<(f64, f64)> {
     let mut estimator = Estimator::new(config).expect("valid");
     let mut random = Pcg64Mcg::seed_from_u64(seed);
-    let (mut y, mut v) = (random.random_range(-1.0..1.0), random.random_range(-1.0..1.0));
-    for n in 0..(6.0 / config.period) as u32 {
-        let noise: f64 = StandardNormal.sample(&mut random);
-        estimator.measure(&[Some((y + SIGMA * noise) as f32)]).expect("in step");
-        if let Some(parameter) = estimator.parameters()[0] {
-            return Some(((f64::from(parameter.value) - K) / f64::from(parameter.variance).sqrt(), n));
+    let mut start = || core::array::from_fn(|_| random.random_range(-1.0..1.0));
+    let (mut y, mut v): ([f64; 3], [f64; 3]) = (start(), start());
+    let mut k = 0.4;
+    let samples = (SECONDS / config.period) as u32;
+    let from = if again { samples / 2 } else { 0 };
+    for n in 0..samples {
+        let noisy = y.map(|y| {
+            let noise: f64 = StandardNormal.sample(&mut random);
+            Some((y + SIGMA * noise) as f32)
+        });
+        estimator.measure(&noisy).expect("in step");
+        if n >= from
+            && estimator.parameter_status() == [ParameterStatus::Valid]
+            && let Some(parameter) = estimator.parameters()[0]
+            && (n > from || !again)
+        {
+            let off = (f64::from(parameter.value) - k) / f64::from(parameter.variance).sqrt();
+            return Some((off, f64::from(n - from) * config.period));
+        }
+        if again && n == from {
+            estimator.reinitialise_identifier();
+            k = 0.6;
         }
         let t = f64::from(n) * config.period;
-        let force = (4.0 * (3.0 * t + seed as f64).sin() - 2.0 * y) as f32;
-        estimator.apply(&[force]);
-        let acceleration = K * f64::from(force);
-        y += config.period * v + 0.5 * config.period * config.period * acceleration;
-        v += config.period * acceleration;
+        let forces: [f32; 3] =
+            core::array::from_fn(|i| (4.0 * (3.0 * t + seed as f64 + i as f64).sin() - 2.0 * y[i]) as f32);
+        estimator.apply(&forces);
+        for ((y, v), force) in y.iter_mut().zip(&mut v).zip(forces) {
+            let acceleration = k * f64::from(force);
+            *y += config.period * *v + 0.5 * config.period * config.period * acceleration;
+            *v += config.period * acceleration;
+        }
     }
     None
 }
 
 /// Of the first values of 40 runs each, over a grid of tunings, rates and blocks, none is off by more than 5 of its standard
-/// deviations, 5.7e-7 each and 0.3 % over all of them; and most runs have one.
-#[test]
-fn the_first_value_is_as_good_as_it_says() {
+/// deviations, 5.7e-7 each and 0.3 % over all of them; and nearly all runs have one.
+fn hold_first_values_to_their_word(again: bool) {
     let (mut found, mut all, mut worst) = (0_u32, 0_u32, 0.0_f64);
     for (period, block) in [(1e-3, 1), (1e-3, 10), (2e-3, 1), (5e-3, 1), (0.01, 1), (0.02, 1), (1.25e-4, 40)] {
         for (lambda, q) in
@@ -48,17 +67,27 @@ fn the_first_value_is_as_good_as_it_says() {
                 let config = EstimatorConfig { block, identifier, noise_sd, ..EstimatorConfig::new(period) };
                 for seed in 0..RUNS {
                     all += 1;
-                    let Some((off, at)) = first(&config, seed) else { continue };
+                    let Some((off, at)) = first(&config, again, seed) else { continue };
                     found += 1;
                     worst = worst.max(off.abs());
                     assert!(
                         off.abs() < 5.0,
-                        "T {period}, block {block}, λ {lambda}, q {q}, noise {noise_sd:?}, seed {seed}: {off} sd at {at}"
+                        "T {period}, block {block}, λ {lambda}, q {q}, noise {noise_sd:?}, seed {seed}: {off} sd after {at} s"
                     );
                 }
             }
         }
     }
-    println!("{found} of {all} runs had a valid parameter within 6 s, the worst off by {worst:.2} sd");
-    assert!(found > all / 2);
+    println!("{found} of {all} runs had a valid parameter, the worst off by {worst:.2} sd");
+    assert!(found > all / 10 * 9);
+}
+
+#[test]
+fn from_the_start() {
+    hold_first_values_to_their_word(false);
+}
+
+#[test]
+fn after_a_re_initialisation() {
+    hold_first_values_to_their_word(true);
 }
