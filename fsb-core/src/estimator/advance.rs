@@ -62,20 +62,25 @@ impl Parts<'_> {
             self.repair_positions(y, m1);
         }
         let Frame { common, progress, axes } = &mut *self.frame;
+        progress.observer.gains = gains;
+        let identifying = progress.observer.count >= progress.identifier.began && progress.learning == Learning::On;
+        let in_block = identifying && common.block_length > 1;
         for (axis, &y) in axes.iter_mut().zip(y.iter()) {
             axis.observe(y, m1, gains.t_l2());
         }
-        progress.observer.gains = gains;
-        let identifying = progress.observer.count >= progress.identifier.began && progress.learning == Learning::On;
-        if identifying && common.block_length == 1 {
-            self.take_singles();
-        } else if identifying {
+        if in_block {
             for (axis, &y) in axes.iter_mut().zip(y.iter()) {
                 axis.sample(y);
             }
             let position = progress.identifier.position;
             let next = progress.identifier.move_on(common);
             self.take_turns(position, next);
+        } else if identifying {
+            self.take_singles();
+        } else if progress.observer.count & 15 == 15 {
+            // Nobody has a turn, and the observers go on.
+            self.turn_gains();
+            self.fold_observers();
         }
         let progress = &mut self.frame.progress;
         progress.steady = complete && progress.all_measured && progress.observer.striding && identifying;
@@ -208,16 +213,20 @@ impl Parts<'_> {
         if self.frame.progress.observer.count >= LONG_AGO {
             self.rebase();
         }
-        let Frame { common, progress, axes } = &mut *self.frame;
+        let Frame { common, progress, .. } = &mut *self.frame;
         if progress.observer.striding {
             progress.observer.renew(common);
         } else if !common.schedule.unhurried {
             progress.observer.settle();
         }
         if common.schedule.round > 32 {
-            for axis in axes {
-                axis.fold_observer();
-            }
+            self.fold_observers();
+        }
+    }
+
+    fn fold_observers(&mut self) {
+        for axis in &mut self.frame.axes {
+            axis.fold_observer();
         }
     }
 
