@@ -77,7 +77,7 @@ impl Parts<'_> {
             self.take_turns(position, next);
         } else if identifying {
             self.take_singles();
-        } else if progress.observer.count & 15 == 15 {
+        } else if progress.observer.count.checked_rem(common.schedule.gains_every) == Some(1) {
             // Nobody has a turn, and the observers go on.
             self.turn_gains();
             self.fold_observers();
