@@ -1,9 +1,9 @@
 //! Which measurement does what, so that no tick carries everything.
 //!
 //! Within a round of measurements (a block; eight where blocks are single samples) every axis has its turn, one sample
-//! after the other, and then the identifier's weights and the observer's gains have theirs. An estimator with another `turn`
-//! has all of that so many measurements later: two estimators of N axes with turns 0 and N + 1 never have a turn in the same
-//! tick where a round is at least 2 (N + 1) measurements.
+//! after the other, and the identifier's weights and the observer's gains have theirs, where there is room at a sample at
+//! which no block ends. An estimator with another `turn` has all of that so many measurements later: two estimators of N axes
+//! with turns 0 and N + 1 never end a block in the same tick where a round is at least 2 (N + 1) measurements.
 
 use crate::wide::Wide;
 
