@@ -42,7 +42,7 @@
 
 
 // sizeof(fsb_axis_t).
-#define FSB_AXIS_SIZE 768
+#define FSB_AXIS_SIZE 800
 
 // Alignment of fsb_axis_t.
 #define FSB_AXIS_ALIGNMENT 8
@@ -64,7 +64,7 @@
 #define FSB_LEARNING_CONTACT 2
 
 // sizeof(fsb_rotation_t).
-#define FSB_ROTATION_SIZE 1280
+#define FSB_ROTATION_SIZE 1344
 
 // Alignment of fsb_rotation_t.
 #define FSB_ROTATION_ALIGNMENT 8
@@ -244,6 +244,13 @@
 // A moment of inertia has changed: all three are identified anew, the old ones held until then.
 #define FSB_EVENT_INERTIA_CHANGED 128
 
+// The velocity has changed at once by more than any input explains, as in a collision: it was followed, and the mass has not
+// noticed.
+#define FSB_EVENT_TRANSLATION_PUSHED 256
+
+// The same for the rates and the moments of inertia.
+#define FSB_EVENT_ROTATION_PUSHED 512
+
 // Version of the interface that this header describes: 65536 * major + 256 * minor + patch. Compare it once at
 // start-up with fsb_version(): header and library must be of the same version.
 #define FSB_VERSION 256
@@ -315,7 +322,7 @@ typedef int32_t fsb_status_t;
 // One axis: y'' = k f + drift. Storage of the caller; what is in it is the library's.
 typedef struct fsb_axis_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[96];
+  uint64_t opaque[100];
 } fsb_axis_t;
 
 // Whether a position and a velocity may be used, and why not. Usable is whatever is FSB_STATE_NOMINAL or more.
@@ -430,7 +437,7 @@ typedef struct fsb_rotation_config_t {
 // caller; what is in it is the library's.
 typedef struct fsb_rotation_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[160];
+  uint64_t opaque[168];
 } fsb_rotation_t;
 
 // Gains and limits of an axis's controller. Start from fsb_tracking_config_default.
@@ -699,6 +706,10 @@ typedef struct fsb_vehicle_counters_t {
   uint32_t mass_changes;
   // FSB_EVENT_INERTIA_CHANGED
   uint32_t inertia_changes;
+  // FSB_EVENT_TRANSLATION_PUSHED
+  uint32_t translation_pushes;
+  // FSB_EVENT_ROTATION_PUSHED
+  uint32_t rotation_pushes;
 } fsb_vehicle_counters_t;
 
 #ifdef __cplusplus

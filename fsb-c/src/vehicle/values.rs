@@ -34,6 +34,11 @@ pub const FSB_EVENT_WRENCH_REJECTED: u32 = 32;
 pub const FSB_EVENT_MASS_CHANGED: u32 = 64;
 /// A moment of inertia has changed: all three are identified anew, the old ones held until then.
 pub const FSB_EVENT_INERTIA_CHANGED: u32 = 128;
+/// The velocity has changed at once by more than any input explains, as in a collision: it was followed, and the mass has not
+/// noticed.
+pub const FSB_EVENT_TRANSLATION_PUSHED: u32 = 256;
+/// The same for the rates and the moments of inertia.
+pub const FSB_EVENT_ROTATION_PUSHED: u32 = 512;
 
 /// What was measured and has arrived by now. Start from fsb_measured_none.
 #[repr(C)]
@@ -120,6 +125,10 @@ pub struct fsb_vehicle_counters_t {
     pub mass_changes: u32,
     /// FSB_EVENT_INERTIA_CHANGED
     pub inertia_changes: u32,
+    /// FSB_EVENT_TRANSLATION_PUSHED
+    pub translation_pushes: u32,
+    /// FSB_EVENT_ROTATION_PUSHED
+    pub rotation_pushes: u32,
 }
 
 impl fsb_measured_t {
@@ -211,6 +220,8 @@ impl fsb_vehicle_counters_t {
         rejected_wrenches: 0,
         mass_changes: 0,
         inertia_changes: 0,
+        translation_pushes: 0,
+        rotation_pushes: 0,
     };
 }
 
@@ -225,6 +236,8 @@ impl From<VehicleCounters> for fsb_vehicle_counters_t {
             rejected_wrenches: of.rejected_wrenches,
             mass_changes: of.mass_changes,
             inertia_changes: of.inertia_changes,
+            translation_pushes: of.translation_pushes,
+            rotation_pushes: of.rotation_pushes,
         }
     }
 }
@@ -240,6 +253,8 @@ pub(super) fn bits(events: &Events) -> u32 {
         (events.wrench_rejected, FSB_EVENT_WRENCH_REJECTED),
         (events.mass_changed, FSB_EVENT_MASS_CHANGED),
         (events.inertia_changed, FSB_EVENT_INERTIA_CHANGED),
+        (events.translation_pushed, FSB_EVENT_TRANSLATION_PUSHED),
+        (events.rotation_pushed, FSB_EVENT_ROTATION_PUSHED),
     ]
     .iter()
     .fold(0, |bits, (happened, bit)| if *happened { bits | bit } else { bits })

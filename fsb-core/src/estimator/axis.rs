@@ -204,22 +204,4 @@ impl Axis {
         }
         sound
     }
-
-    /// Forgets what the identifier knows, keeps the observer.
-    pub fn reset_identifier(&mut self, noise: NoiseLevel) {
-        *self = Self {
-            observer: self.observer,
-            model: self.model,
-            moments: self.moments,
-            innovation_before: self.innovation_before,
-            settled_at: self.settled_at,
-            usable_at: self.usable_at,
-            gap: self.gap,
-            source: self.source,
-            measured: self.measured,
-            own: self.own,
-            noise,
-            ..Self::default()
-        };
-    }
 }

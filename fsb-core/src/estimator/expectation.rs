@@ -1,6 +1,7 @@
 //! What the next measurement should be, for a gate in front.
 
 use super::Estimator;
+use super::anew::Known;
 use super::output::OutOfStep;
 use crate::readout::ParameterStatus;
 
@@ -57,6 +58,18 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
                 axis.origin += by;
             }
         }
+    }
+
+    /// The axes move by so much more in a measurement period (m or rad) from now on, which no input explains: the identifier's
+    /// window begins anew. One that would come to move by more than twice the limit of its measurements goes on as it did.
+    pub(crate) fn push(&mut self, by: &[f32; N]) {
+        let most = 2.0 * self.frame.common.position_limit;
+        for (axis, &by) in self.frame.axes.iter_mut().zip(by) {
+            if (axis.observer.t_velocity() + by).abs() <= most {
+                axis.observer.push(by);
+            }
+        }
+        self.parts().begin_window(Known::Doubted);
     }
 
     /// R: control periods to a measurement period.

@@ -1,6 +1,7 @@
 //! Learning only when told: on the ground thrust moves nothing, and what is learned there is wrong.
 
 use super::Estimator;
+use super::anew::Known;
 use super::axis::{Axis, Clocks};
 use super::design::Common;
 use super::output::Learning;
@@ -31,7 +32,7 @@ impl Parts<'_> {
         progress.learning = learning;
         progress.steady = false;
         match learning {
-            Learning::On => self.reset_identifier(true),
+            Learning::On => self.begin_window(Known::Held),
             Learning::Off => self.predict_with_parameters(),
             Learning::Contact => self.heed_contact(),
         }

@@ -10,6 +10,7 @@
 //! | `schedule` | who has a turn at which measurement |
 //! | `axis` | the state of one axis, and what it does at its turns |
 //! | `identify` | its block through the cascade, and into its parameter's sums |
+//! | `anew` | the identification begun anew, and what becomes of what is known |
 //! | `learning` | learning only when told |
 //! | `shared` | the state that depends on time alone: windows, gains, weights, covariance |
 //! | `step` | the two calls a tick |
@@ -23,6 +24,7 @@
 //! | `output` | the types of that |
 
 mod advance;
+mod anew;
 mod axis;
 mod config;
 mod configuring;
@@ -51,6 +53,7 @@ pub use view::View;
 
 use crate::error::ConfigError;
 use crate::readout::ParameterState;
+use anew::Known;
 use axis::Axis;
 use config::or_nan;
 use design::Shape;
@@ -143,7 +146,12 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// Starts the identification anew (section III of the paper: "each reinitialization"), the observer going on. Until
     /// the new k̂ is valid the observer predicts with the nominal parameter, if there is one.
     pub fn reset_identifier(&mut self) {
-        self.parts().reset_identifier(false);
+        self.parts().begin_window(Known::Forgotten);
+    }
+
+    /// The identifier's window begins anew, and what has been learned stays: for inputs of late that were not what acted.
+    pub(crate) fn reopen_window(&mut self) {
+        self.parts().begin_window(Known::Kept);
     }
 
     /// Starts the identification anew as [`reset_identifier`](Self::reset_identifier) does, without losing what is known: a
@@ -152,7 +160,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     ///
     /// [`ParameterStatus::Held`]: crate::readout::ParameterStatus::Held
     pub fn reinitialise_identifier(&mut self) {
-        self.parts().reset_identifier(true);
+        self.parts().begin_window(Known::Held);
     }
 
     /// The same without its shape.

@@ -1,11 +1,11 @@
 //! An estimator without its shape: the code behind it is there once for all numbers of axes.
 
-use super::axis::{Axis, Clocks, Source};
+use super::axis::{Axis, Source};
 use super::design::Common;
 use super::output::Learning;
-use super::shared::{IdentifierClock, Progress};
+use super::shared::Progress;
 use crate::observer::Model;
-use crate::readout::{NoiseLevel, ParameterState};
+use crate::readout::ParameterState;
 
 /// The axes and what they share. Without its shape it is this with a slice in place of the array: two words to hand over.
 #[derive(Clone, Copy, Debug)]
@@ -62,37 +62,5 @@ impl Parts<'_> {
         for (index, axis) in axes.iter_mut().enumerate() {
             start_axis(axis, common, self.parameters.get(index.min(last)), contact);
         }
-    }
-
-    /// See [`super::Estimator::reset_identifier`], and for `hold` [`super::Estimator::reinitialise_identifier`].
-    pub fn reset_identifier(&mut self, hold: bool) {
-        let Frame { common, progress, axes } = &mut *self.frame;
-        let next = if progress.started { progress.observer.count.saturating_add(1) } else { 0 };
-        progress.identifier = IdentifierClock::start(next.saturating_add(common.schedule.turn));
-        progress.steady = false;
-        let pooled = self.parameters.len() == 1;
-        let measured = axes.iter().filter(|axis| axis.measured).count();
-        let members = if pooled { measured as u8 } else { 1 };
-        for parameter in self.parameters.iter_mut() {
-            if hold {
-                parameter.hold(members);
-            } else {
-                parameter.restart(members);
-            }
-        }
-        let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };
-        for (index, axis) in axes.iter_mut().enumerate() {
-            // What noise there is from sample to sample is known; what the old parameter left over is none.
-            let noise = if hold && axis.noise.is_known() {
-                NoiseLevel::expected(axis.noise.measurement_variance())
-            } else {
-                common.noise
-            };
-            axis.reset_identifier(noise);
-            if let Some(parameter) = self.parameters.get(parameter_of(index, self.parameters)) {
-                axis.change_source(parameter, clocks, common);
-            }
-        }
-        self.heed_contact();
     }
 }

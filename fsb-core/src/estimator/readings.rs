@@ -113,8 +113,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     }
 
     /// Adds to an axis's input cascade (x4, x5, x6), and to the denominator of its parameter: what the input turns out to have
-    /// been beyond what was applied.
-    pub(crate) fn shift_input(&mut self, axis: usize, cascade: [f32; 3], denominator: f32) {
+    /// been beyond what was applied; `doubt` is the square of what that may leave k̂ off by, relative to itself.
+    pub(crate) fn shift_input(&mut self, axis: usize, cascade: [f32; 3], denominator: f32, doubt: f32) {
         let parameter = if P == 1 { 0 } else { axis };
         if let (Some(axis), Some(parameter)) = (self.frame.axes.get_mut(axis), self.parameters.get_mut(parameter)) {
             let [x4, x5, x6] = cascade;
@@ -122,12 +122,13 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             axis.cascade.x5.add(x5);
             axis.cascade.x6.add(x6);
             parameter.ratio.shift_denominator(denominator);
+            parameter.set_doubt(doubt);
         }
     }
 
     /// The newest quotient of each parameter, valid or not, where it can be right: in range, and known to four times
     /// the standard deviation at which it becomes valid.
-    pub(crate) fn rough_parameters(&self) -> [Option<f32>; P] {
+    pub(crate) fn rough_parameters(&self) -> [Option<Parameter>; P] {
         self.parameters.each_ref().map(|p| p.rough())
     }
 

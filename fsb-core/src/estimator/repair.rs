@@ -1,6 +1,7 @@
 //! Measurements that did not come, or cannot be right.
 
-use super::axis::{Clocks, Source};
+use super::anew::Known;
+use super::axis::{Axis, Clocks, Source};
 use super::parts::{Frame, Parts, parameter_of};
 
 impl Parts<'_> {
@@ -22,6 +23,9 @@ impl Parts<'_> {
     pub fn repair_positions(&mut self, y: &mut [f32], m1: f32) {
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.all_measured = true;
+        let (limit, longest) = (common.position_limit, common.longest_gap());
+        let back = |axis: &Axis, y: f32| axis.present && u32::from(axis.gap) >= longest && y.abs() <= limit;
+        let reopen = axes.iter().zip(y.iter()).any(|(axis, y)| back(axis, *y));
         for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {
             let parameter = self.parameters.get_mut(parameter_of(index, self.parameters));
             if y.abs() <= common.position_limit {
@@ -62,6 +66,9 @@ impl Parts<'_> {
                 *y = 0.0;
             }
             progress.all_measured = false;
+        }
+        if reopen {
+            self.begin_window(Known::Kept);
         }
         self.heed_contact();
     }

@@ -14,7 +14,8 @@ pub struct GuardConfig {
     pub acceleration: f64,
     /// Steps up to this always pass (m or rad): a few quanta of the sensor. Not negative, up to 1e6.
     pub floor: f64,
-    /// So many improbable measurements in a row that agree with each other are a jump of the sensor. 2..=65535.
+    /// So many improbable measurements in a row that agree with each other are a jump of the sensor, and so many on a straight
+    /// line a push: the velocity has changed at once. 2..=65535.
     pub jump_after: u32,
     /// Gaps up to this are bridged by prediction (s). An axis that has not been measured for longer is stale: its state is not
     /// handed out. Where all axes are, the windows start anew with the next measurement; where one was, the identification.
@@ -47,6 +48,8 @@ pub struct GuardDesign {
     pub(super) lambda_t: f32,
     /// 3λT: the share of itself by which an innovation changes at most from one sample to the next, both poles at e^(-λT)
     pub(super) decay: f32,
+    /// 1/T
+    pub(super) per_period: f32,
     pub(super) jump_after: u16,
     /// In measurement periods.
     pub(super) bridge: u16,
@@ -85,6 +88,7 @@ impl GuardDesign {
             fall: (0.5 * config.acceleration * period * period) as f32,
             lambda_t: (lambda * period) as f32,
             decay: (3.0 * lambda * period) as f32,
+            per_period: (1.0 / period) as f32,
             jump_after: count("guard.jump_after", config.jump_after, 2)?,
             bridge: bridge as u16,
             frozen_after: count("guard.frozen_after", config.frozen_after, 0)?,

@@ -1,6 +1,7 @@
 //! One axis: its noise level, and whether a measurement can be true.
 
 use super::config::GuardDesign;
+use super::course::{Course, lies_within};
 use super::verdict::Verdict;
 
 /// What the gate of one axis remembers.
@@ -18,8 +19,8 @@ pub(super) struct Gate {
     pub(super) repeated: u16,
     /// The observer's innovation after the last measurement that was used.
     pub(super) innovation: f32,
-    /// That of the last improbable one.
-    pub(super) candidate: f32,
+    /// Those of the improbable ones.
+    pub(super) course: Course,
     /// The bits of the last measurement, used or not; they may be those of a subnormal number.
     pub(super) last: u32,
 }
@@ -57,7 +58,7 @@ impl Gate {
         let verdict = self.verdict(y, expected, limit, settled, design);
         if verdict.is_used() {
             self.gap = 0;
-            self.run = 0;
+            self.begin_run();
         } else {
             self.gap = self.gap.saturating_add(1);
         }
@@ -73,7 +74,7 @@ impl Gate {
         }
         if self.is_frozen(y, design) {
             // A frozen sensor agrees with itself, which is no jump.
-            self.run = 0;
+            self.begin_run();
             return Verdict::Frozen;
         }
         let Some(expected) = expected else {
@@ -92,22 +93,29 @@ impl Gate {
         let trusted = self.values >= Self::ENOUGH;
         // What was expected is no outlier: it may be the last one that was, and passed.
         let off = if innovation.abs() < step.abs() { innovation } else { step };
-        if !trusted || off * off <= noise * stretch * stretch + known * known {
+        if !trusted || lies_within(off, noise * stretch * stretch, known) {
             if self.gap == 0 {
                 self.learn(step * step);
             }
             return Verdict::Taken;
         }
-        // Predicted all along from the same state: only a jump keeps its distance.
-        let apart = innovation - self.candidate;
-        let agree = apart * apart <= noise + design.step * design.step;
+        // Predicted all along from the same state: only a jump keeps its distance, and only a push leaves it on a straight line.
+        let agree = lies_within(innovation - self.course.last, noise, design.step);
         self.run = if self.run > 0 && agree { self.run.saturating_add(1) } else { 1 };
-        self.candidate = innovation;
+        self.course.add(innovation, self.gap, noise, design);
+        if self.course.is_push(noise, design) {
+            return Verdict::Pushed(self.course.rate() * design.per_period);
+        }
         if self.run >= design.jump_after {
             // The next innovation is about that of before the jump.
             return Verdict::Jumped(step);
         }
         Verdict::Improbable
+    }
+
+    fn begin_run(&mut self) {
+        self.run = 0;
+        self.course = Course::default();
     }
 
     /// What the observer's innovation has become: where the measurement was used it is the gate's own, but for a state that

@@ -8,6 +8,15 @@ use crate::estimator::{AxisState, Estimator, EstimatorConfig, Learning, OutOfSte
 use crate::moments::InputMoments;
 use core::ops::Deref;
 
+/// Where the state of an axis is put.
+#[derive(Clone, Copy, Default)]
+struct Shift {
+    /// By so much the origin moves (m or rad).
+    origin: f32,
+    /// By so much more the axis moves in a measurement period (m or rad).
+    motion: f32,
+}
+
 /// An [`Estimator`] that is shown only what can be true, and that says when its states are stale. What is not here is read
 /// from the estimator, by `Deref`.
 ///
@@ -70,7 +79,7 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         let limit = self.estimator.position_limit();
         let settled = self.instants >= Self::FIRST;
         let mut given = [f32::NAN; N];
-        let mut moved = [0.0; N];
+        let mut moved = [Shift::default(); N];
         let each = self.gates.iter_mut().zip(&mut self.verdicts).zip(&expected).zip(&mut moved);
         for ((((gate, verdict), expected), moved), (position, given)) in each.zip(positions.iter().zip(&mut given)) {
             *verdict = match *position {
@@ -84,12 +93,22 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
             if verdict.is_used() {
                 *given = position.unwrap_or(f32::NAN);
             }
-            if let Verdict::Jumped(by) = *verdict {
-                *moved = by;
+            match *verdict {
+                Verdict::Jumped(by) => moved.origin = by,
+                // So that what is expected with the new velocity is what is measured.
+                Verdict::Pushed(by) => {
+                    moved.motion = by * self.measurement_period;
+                    moved.origin = *given - expected.unwrap_or(*given) - moved.motion;
+                }
+                _ => {}
             }
         }
-        if self.verdicts.iter().any(|v| matches!(v, Verdict::Jumped(_))) {
-            self.estimator.translate(&moved);
+        let pushed = self.verdicts.iter().any(|v| matches!(v, Verdict::Pushed(_)));
+        if pushed || self.verdicts.iter().any(|v| matches!(v, Verdict::Jumped(_))) {
+            self.estimator.translate(&moved.map(|by| by.origin));
+        }
+        if pushed {
+            self.estimator.push(&moved.map(|by| by.motion));
         }
         self.estimator.measure_raw(&given)?;
         for (gate, innovation) in self.gates.iter_mut().zip(self.estimator.innovations()) {
@@ -161,8 +180,8 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         self.fresh(self.estimator.states_after(ahead, periods))
     }
 
-    pub(crate) fn shift_input(&mut self, axis: usize, by: [f32; 3], denominator: f32) {
-        self.estimator.shift_input(axis, by, denominator);
+    pub(crate) fn shift_input(&mut self, axis: usize, by: [f32; 3], denominator: f32, doubt: f32) {
+        self.estimator.shift_input(axis, by, denominator, doubt);
     }
 
     fn fresh(&self, mut states: [Option<AxisState>; N]) -> [Option<AxisState>; N] {
@@ -241,6 +260,11 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         self.last = [InputMoments::ZERO; N];
         self.instants = 0;
         self.interrupted = false;
+    }
+
+    /// As [`Estimator::reopen_window`].
+    pub(crate) fn reopen_window(&mut self) {
+        self.estimator.reopen_window();
     }
 
     /// As [`Estimator::reinitialise_identifier`].

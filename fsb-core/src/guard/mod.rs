@@ -14,18 +14,22 @@
 //!
 //! What is not taken is counted by reason and predicted instead. Improbable measurements in a row that agree with each other
 //! are a jump of the sensor's origin: positions are moved by it, and as the plant is translation invariant, velocity and
-//! identification go on as if nothing had happened. A state that holds what is no number, which only a memory changed from
+//! identification go on as if nothing had happened. As many that leave what is predicted on a straight line, four at least, are a
+//! push: the velocity has changed at once, which no input explains. The state is put on the line, and the identifier's window
+//! begins anew ([`Verdict::Pushed`]). A state that holds what is no number, which only a memory changed from
 //! outside can bring about, is counted and begun anew. The estimator itself pays nothing for the gate.
 //!
 //! | file | what |
 //! |---|---|
 //! | `config` | plain data, and the same validated |
+//! | `course` | measurements that leave what is predicted on a straight line |
 //! | `gate` | one axis: its noise level, and whether a measurement can be true |
 //! | `guarded` | an estimator behind the gates |
 //! | `stored` | what a snapshot holds |
 //! | `verdict` | what became of a measurement |
 
 mod config;
+mod course;
 mod gate;
 mod guarded;
 mod stored;

@@ -5,8 +5,8 @@ use super::guarded::Guarded;
 use super::verdict::{Rejections, Verdict};
 use crate::snapshot::{Archive, Fingerprint, Stored, Whole, snapshots, stored};
 
-stored!(Gate { level, values, gap, run, repeated, innovation, candidate, last });
-stored!(Rejections { missing, non_finite, beyond_limit, improbable, frozen, jumps, faults });
+stored!(Gate { level, values, gap, run, repeated, innovation, course, last });
+stored!(Rejections { missing, non_finite, beyond_limit, improbable, frozen, jumps, pushes, faults });
 
 impl Stored for Verdict {
     fn pass(&mut self, archive: &mut dyn Archive) {
@@ -18,6 +18,7 @@ impl Stored for Verdict {
             Self::Improbable => (4, 0.0),
             Self::Frozen => (5, 0.0),
             Self::Jumped(by) => (6, by),
+            Self::Pushed(by) => (7, by),
         };
         code.pass(archive);
         size.pass(archive);
@@ -29,6 +30,7 @@ impl Stored for Verdict {
             4 => *self = Self::Improbable,
             5 => *self = Self::Frozen,
             6 => *self = Self::Jumped(size),
+            7 => *self = Self::Pushed(size),
             _ => archive.refuse(),
         }
     }

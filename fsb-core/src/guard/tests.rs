@@ -100,7 +100,81 @@ fn only_what_agrees_is_a_jump() {
     let [_, second, third, fourth] = verdicts([3.0, 5.0, 5.05, 5.0]);
     assert_eq!((second, third), (no, no));
     assert!(matches!(fourth, Verdict::Jumped(_)), "{fourth}");
-    assert_eq!(verdicts([5.0, 5.12, 5.24, 5.36]), [no; 4], "steps above the floor");
+    assert_eq!(verdicts([5.0, 5.12, 5.0, 5.12]), [no; 4], "steps above the floor");
+}
+
+/// What the gate says to measurements so far from what is expected, T apart; there is none where that is NaN.
+fn verdicts<const M: usize>(gate: &mut Gate, aways: [f32; M], design: &GuardDesign) -> [Verdict; M] {
+    aways.map(|away| {
+        if away.is_nan() {
+            gate.miss();
+            return Verdict::Missing;
+        }
+        gate.judge(1.0 + away, Some(1.0), LIMIT, true, design)
+    })
+}
+
+/// Four on a straight line are a push, its rate over T the change of the velocity, also where one in between is missing; one that
+/// is off the line begins another with the one before.
+#[test]
+fn what_goes_straight_is_a_push() {
+    let design = design(8.0, 0.0, 0.1);
+    let pushed = |verdict: Verdict, by: f32| matches!(verdict, Verdict::Pushed(found) if (found - by).abs() < 1e-3);
+    let no = Verdict::Improbable;
+    let fresh = || Gate::expecting(Some(1e-16));
+    let [first, second, third, fourth] = verdicts(&mut fresh(), [1.0, 1.2, 1.4, 1.6], &design);
+    assert!([first, second, third] == [no; 3] && pushed(fourth, 20.0), "{fourth}");
+    let [.., last] = verdicts(&mut fresh(), [-1.0, f32::NAN, -1.4, -1.6, f32::NAN, f32::NAN, -2.2], &design);
+    assert!(pushed(last, -20.0), "{last}");
+    let [first @ .., last] = verdicts(&mut fresh(), [1.0, 1.2, 1.4, 6.0, 5.8, 5.6, 5.4], &design);
+    assert!(first == [no; 6] && pushed(last, -20.0), "{first:?} {last}");
+    // A measurement that is used, or frozen, ends it.
+    let [.., last] = verdicts(&mut fresh(), [1.0, 1.2, 1.4, 0.0, 1.6, 1.8, 2.0], &design);
+    assert_eq!(last, no);
+}
+
+/// Off the line by no more than noise and the floor, and what an unknown acceleration bends it by; led away by more than these.
+#[test]
+fn how_straight_a_push_is() {
+    let no = Verdict::Improbable;
+    for (acceleration, floor, sd) in [(0.0, 0.1, 0.0), (30.0, 0.1, 0.0), (0.0, 0.05, 0.02_f32)] {
+        let design = GuardDesign { jump_after: 4, ..design(8.0, acceleration, floor) };
+        let (a, noise) = (acceleration as f32, 8.0 * sd);
+        let known = floor as f32 + a * (0.001 / core::f32::consts::E);
+        // One ahead of a line over two; over all three intervals.
+        let bend = libm::sqrtf(noise * noise + (known + 0.5 * a * 1e-4 * 3.0) * (known + 0.5 * a * 1e-4 * 3.0));
+        let far = libm::sqrtf(noise * noise + (known + 0.5 * a * 1e-4 * 9.0) * (known + 0.5 * a * 1e-4 * 9.0));
+        for side in [-1.0, 1.0] {
+            for (share, is_push) in [(0.98, true), (1.02, false)] {
+                let mut gate = Gate::expecting(Some(sd * sd + 1e-16));
+                let [.., last] = verdicts(&mut gate, [5.0, 6.0, 7.0, 8.0 + side * share * bend], &design);
+                assert_eq!(matches!(last, Verdict::Pushed(_)), is_push, "{side} {share}: {last}");
+            }
+            // A third of the way at each step; where it does not lead away it is a jump.
+            for (share, is_push) in [(0.98, false), (1.02, true)] {
+                let mut gate = Gate::expecting(Some(sd * sd + 1e-16));
+                let step = side * share * far / 3.0;
+                let found = verdicts(&mut gate, [5.0, 5.0 + step, 5.0 + 2.0 * step, 5.0 + 3.0 * step], &design);
+                assert_eq!(matches!(found[3], Verdict::Pushed(_)), is_push, "{side} {share}: {found:?}");
+                assert!(found[..3] == [no; 3] && found[3].is_used(), "{found:?}");
+            }
+        }
+    }
+}
+
+/// A gap so long that it is no longer counted: no time passes, and nothing is a push.
+#[test]
+fn no_push_without_time() {
+    let design = design(8.0, 0.0, 0.1);
+    for gap in [u16::MAX, u16::MAX - 1, u16::MAX - 2] {
+        let mut gate = Gate { gap, ..Gate::expecting(Some(1e-16)) };
+        for n in 0..20_u8 {
+            // Four within a gap that is counted, at most.
+            let verdict = gate.judge(20.0 + f32::from(n), Some(1.0), LIMIT, true, &design);
+            assert!(!matches!(verdict, Verdict::Pushed(by) if !by.is_finite()), "{n}: {verdict}");
+            assert!(gap == u16::MAX - 2 || verdict == Verdict::Improbable, "{n}: {verdict}");
+        }
+    }
 }
 
 /// In a gap the observer's innovation is taken over only where it is large: the state was put elsewhere.
@@ -128,10 +202,10 @@ fn a_restart() {
     gate.judge(7.0, Some(1.0), LIMIT, true, &design);
     gate.miss();
     let before = gate;
-    assert!(before.run == 1 && before.gap == 2 && before.candidate == 6.0 && before.last != 0);
+    assert!(before.run == 1 && before.gap == 2 && before.course.last == 6.0 && before.last != 0);
     gate.restart();
     assert_eq!((gate.level, gate.values, gate.gap()), (before.level, before.values, 2));
-    assert_eq!((gate.run, gate.innovation, gate.candidate, gate.last, gate.repeated), (0, 0.0, 0.0, 0, 0));
+    assert_eq!((gate.run, gate.innovation, gate.course.count, gate.last, gate.repeated), (0, 0.0, 0, 0, 0));
 }
 
 #[test]

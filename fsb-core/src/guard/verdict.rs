@@ -22,12 +22,15 @@ pub enum Verdict {
     Frozen,
     /// The sensor's origin has jumped by so much (m or rad): positions are moved by it, and the measurement was used.
     Jumped(f32),
+    /// The velocity has changed at once, by so much (m/s or rad/s), which no input explains: a collision, or an input that was
+    /// not what acted. The state is put where the measurement is, and the measurement was used.
+    Pushed(f32),
 }
 
 impl Verdict {
     /// Whether the measurement was used.
     pub const fn is_used(self) -> bool {
-        matches!(self, Self::Taken | Self::Jumped(_))
+        matches!(self, Self::Taken | Self::Jumped(_) | Self::Pushed(_))
     }
 }
 
@@ -41,6 +44,7 @@ impl fmt::Display for Verdict {
             Self::Improbable => out.write_str("improbable"),
             Self::Frozen => out.write_str("frozen"),
             Self::Jumped(by) => write!(out, "jumped by {by}"),
+            Self::Pushed(by) => write!(out, "pushed by {by}"),
         }
     }
 }
@@ -61,6 +65,8 @@ pub struct Rejections {
     pub frozen: u32,
     /// Jumps of a sensor's origin.
     pub jumps: u32,
+    /// Changes of the velocity that no input explains.
+    pub pushes: u32,
     /// Starts anew because the state held what is no number or out of all bounds: a memory changed from outside.
     pub faults: u32,
 }
@@ -79,6 +85,7 @@ impl Rejections {
             Verdict::Improbable => &mut self.improbable,
             Verdict::Frozen => &mut self.frozen,
             Verdict::Jumped(_) => &mut self.jumps,
+            Verdict::Pushed(_) => &mut self.pushes,
         };
         *counter = counter.saturating_add(1);
     }

@@ -92,6 +92,11 @@ impl Observer {
         self.y += by;
     }
 
+    /// The axis moves by so much more in a period from now on.
+    pub(crate) fn push(&mut self, by: f32) {
+        self.w.add_folded(by);
+    }
+
     /// Moves collected steps into totals, and ends an innovation and a velocity that have died away.
     #[inline(always)]
     pub fn fold(&mut self) {

@@ -84,6 +84,9 @@ pub(crate) struct ParameterState {
     /// The newest quotient and its variance; while it is held, the value from before.
     value: f32,
     variance: f32,
+    /// What noise makes of the newest quotient's variance, and the square of what else it may be off by, relative to itself.
+    of_noise: f32,
+    doubt: f32,
     pub status: ParameterStatus,
     read: bool,
     credible: bool,
@@ -112,7 +115,7 @@ impl ParameterState {
     pub const BLANK: Self = {
         let rule = CheckedRule { min: 0.0, max: 0.0, relative_variance: 0.0, limit_to_stay: 0.0 };
         let nothing = Parameter { value: 0.0, variance: 0.0 };
-        Self { variance: 0.0, fresh: nothing, ..Self::start(0, None, rule) }
+        Self { variance: 0.0, of_noise: 0.0, fresh: nothing, ..Self::start(0, None, rule) }
     };
 
     /// Nothing known, to be read out of so many axes: no quotient, and a variance above any limit.
@@ -121,6 +124,8 @@ impl ParameterState {
             ratio: Ratio::EMPTY,
             value: 0.0,
             variance: f32::MAX,
+            of_noise: f32::MAX,
+            doubt: 0.0,
             status: ParameterStatus::Settling,
             read: false,
             credible: false,
@@ -149,6 +154,21 @@ impl ParameterState {
             self.status = ParameterStatus::Held;
             (self.value, self.variance) = (value, variance);
         }
+    }
+
+    /// Whether it is not known yet, and nothing speaks against what has been learned so far.
+    pub fn is_being_learned(&self) -> bool {
+        !matches!(self.status, ParameterStatus::Valid | ParameterStatus::Contradicted | ParameterStatus::Faulted)
+    }
+
+    /// Whether nothing has been learned yet.
+    pub fn is_new(&self) -> bool {
+        self.ratio.denominator() == 0.0
+    }
+
+    /// Begins a new window, to be read out of so many axes; what is known stays.
+    pub fn reopen(&mut self, members: u8) {
+        (self.members, self.stepped) = (members, 0);
     }
 
     #[inline(always)]
@@ -182,11 +202,11 @@ impl ParameterState {
         if self.credible { Some(self.newest().value) } else { None }
     }
 
-    /// The newest quotient, where it is in range and known to four times what would make it valid.
-    pub fn rough(&self) -> Option<f32> {
-        let Parameter { value, variance } = self.newest();
-        let limit = 16.0 * self.rule.relative_variance * (value * value);
-        if self.credible && variance <= limit { Some(value) } else { None }
+    /// The newest quotient, where it is in range and noise leaves it known to four times what would make it valid.
+    pub fn rough(&self) -> Option<Parameter> {
+        let newest = self.newest();
+        let limit = 16.0 * self.rule.relative_variance * (newest.value * newest.value);
+        if self.credible && self.of_noise <= limit { Some(newest) } else { None }
     }
 
     /// The parameter, where it is valid or held.
@@ -222,9 +242,21 @@ impl ParameterState {
             let rounding = Self::ROUNDING * quotient;
             let variance = (variance / information) * (scale2 / information) + (pull * pull + rounding * rounding);
             // Rounding can take a sum of next to nothing below zero; no quotient yet makes it infinite.
-            let variance = if (0.0..=f32::MAX).contains(&variance) { variance } else { f32::MAX };
-            *(if self.is_held() { &mut self.fresh.variance } else { &mut self.variance }) = variance;
+            self.of_noise = if (0.0..=f32::MAX).contains(&variance) { variance } else { f32::MAX };
+            self.add_doubt(quotient);
         }
+    }
+
+    /// Sets the square of what the quotient may be off by, relative to itself, for other reasons than noise: it counts as variance.
+    pub fn set_doubt(&mut self, doubt: f32) {
+        self.doubt = doubt;
+        self.add_doubt(self.newest().value);
+    }
+
+    fn add_doubt(&mut self, quotient: f32) {
+        let variance = self.of_noise + self.doubt * (quotient * quotient);
+        *(if self.is_held() { &mut self.fresh.variance } else { &mut self.variance }) =
+            if variance <= f32::MAX { variance } else { f32::MAX };
     }
 
     /// Compares what the model leaves `unexplained` with the most it may; half of that ends a contradiction.
@@ -306,7 +338,7 @@ impl ParameterState {
         let rule = &self.rule;
         let value2 = self.value * self.value;
         let in_range = self.value >= rule.min && self.value <= rule.max;
-        self.credible = self.read && in_range && !self.contradicted && self.variance <= value2;
+        self.credible = self.read && in_range && !self.contradicted && self.of_noise <= value2;
         self.status = if !settled {
             ParameterStatus::Settling
         } else if !self.read {
@@ -334,6 +366,8 @@ stored!(ParameterState {
     ratio,
     value,
     variance,
+    of_noise,
+    doubt,
     status,
     read,
     credible,
@@ -352,6 +386,7 @@ impl ParameterState {
     pub(crate) fn is_sound(&self) -> bool {
         let rule = &self.rule;
         let in_range = |k: Parameter| k.value >= rule.min && k.value <= rule.max;
-        self.variance >= 0.0 && self.fresh.variance >= 0.0 && self.valid().is_none_or(in_range)
+        let variances = [self.variance, self.fresh.variance, self.of_noise, self.doubt];
+        variances.iter().all(|variance| *variance >= 0.0) && self.valid().is_none_or(in_range)
     }
 }

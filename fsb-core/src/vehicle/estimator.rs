@@ -5,7 +5,7 @@ use super::change::Detector;
 use super::config::{GroupConfig, VehicleConfig};
 use super::delay::Delay;
 use super::design;
-use super::gyroscopic::{self, Gyroscopic};
+use super::gyroscopic::Gyroscopic;
 use super::measured::{Attitude, Measured, Wrench};
 use super::output::{Events, VehicleCounters};
 use super::retroactive::Retroactive;
@@ -186,6 +186,16 @@ impl<const D: usize> VehicleEstimator<D> {
                 angles = None;
                 self.angles = before;
             }
+            events.rotation_pushed = is_pushed(&verdicts);
+            if events.rotation_pushed
+                && let Some(detector) = &mut self.rotation_change
+            {
+                detector.restart();
+            }
+            if events.rotation_pushed || events.attitude_lost {
+                // The force of late was turned the wrong way.
+                self.translation.reopen_window();
+            }
             self.look_back();
             events.inertia_changed = self.inertia_has_changed();
         }
@@ -198,17 +208,20 @@ impl<const D: usize> VehicleEstimator<D> {
     }
 
     /// The gyroscopic moment so far, with what is now known of the moments of inertia.
+    #[inline(never)]
     fn look_back(&mut self) {
         let Some(retroactive) = &mut self.retroactive else { return };
-        let (valid, mut k) = (self.rotation.parameters(), self.rotation.prediction_parameters());
-        for ((k, valid), rough) in k.iter_mut().zip(valid).zip(self.rotation.rough_parameters()) {
-            *k = valid.map(|k| k.value).or(rough).or(*k);
+        if self.rotation.learning() != Learning::On {
+            return;
         }
-        let Some(k) = all(k) else { return };
-        let differences = gyroscopic::differences(&k.map(|k| 1.0 / k));
-        if let Some(shifts) = retroactive.measured(&self.rotation.identifier_view(), &differences) {
+        let Some(guesses) = all(self.rotation.prediction_parameters()) else { return };
+        let mut k = self.rotation.parameters();
+        for (k, rough) in k.iter_mut().zip(self.rotation.rough_parameters()) {
+            *k = k.or(rough);
+        }
+        if let Some(shifts) = retroactive.measured(&self.rotation.identifier_view(), &k, &guesses) {
             for (axis, shift) in shifts.iter().enumerate() {
-                self.rotation.shift_input(axis, shift.input, shift.denominator);
+                self.rotation.shift_input(axis, shift.input, shift.denominator, shift.doubt);
             }
         }
     }
@@ -223,6 +236,12 @@ impl<const D: usize> VehicleEstimator<D> {
             if sound.is_some() {
                 events.position_rejected = verdicts.iter().any(|verdict| !verdict.is_used());
                 events.position_jumped = verdicts.iter().any(|verdict| matches!(verdict, Verdict::Jumped(_)));
+                events.translation_pushed = is_pushed(&verdicts);
+            }
+            if events.translation_pushed
+                && let Some(detector) = &mut self.translation_change
+            {
+                detector.restart();
             }
             events.mass_changed = self.mass_has_changed();
         } else {
@@ -282,6 +301,10 @@ impl<const D: usize> VehicleEstimator<D> {
         self.attitude_measured = false;
         self.begun = false;
     }
+}
+
+fn is_pushed(verdicts: &[Verdict; 3]) -> bool {
+    verdicts.iter().any(|verdict| matches!(verdict, Verdict::Pushed(_)))
 }
 
 /// The detector of a group, where one is configured.

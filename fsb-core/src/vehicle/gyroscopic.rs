@@ -1,10 +1,33 @@
 //! The gyroscopic moment τ_g = -ω × I ω of (8), taken as an input beside the torque: I ω' = τ + τ_g.
 
 use crate::moments::InputMoments;
+use crate::readout::Parameter;
 
 /// γ = I_j - I_k of each axis, so that τ_g = γ ω_j ω_k.
 pub(super) fn differences([ix, iy, iz]: &[f32; 3]) -> [f32; 3] {
     [iy - iz, iz - ix, ix - iy]
+}
+
+/// γ of each axis, and its variance. `k` is 1/I where it is identified, else `guesses`: first guesses of moments of inertia are
+/// taken to be off by half of themselves, two of them together.
+pub(super) fn differences_known(k: &[Option<Parameter>; 3], guesses: &[f32; 3]) -> ([f32; 3], [f32; 3]) {
+    let (mut inertias, mut variances) = ([0.0; 3], [0.0; 3]);
+    for (((inertia, variance), k), guess) in inertias.iter_mut().zip(&mut variances).zip(k).zip(guesses) {
+        let k = k.unwrap_or(Parameter { value: *guess, variance: 0.25 * guess * guess });
+        *inertia = 1.0 / k.value;
+        let square = *inertia * *inertia;
+        *variance = (k.variance * square) * square;
+    }
+    let gammas = differences(&inertias);
+    let [x, y, z] = variances;
+    let [p, q, r] = k.map(|k| k.is_none());
+    let mut of_gammas = [y + z, z + x, x + y];
+    for ((variance, both), gamma) in of_gammas.iter_mut().zip([q && r, r && p, p && q]).zip(&gammas) {
+        if both {
+            *variance = 0.25 * gamma * gamma;
+        }
+    }
+    (gammas, of_gammas)
 }
 
 /// ω_j ω_k of each axis.

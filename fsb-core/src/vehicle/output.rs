@@ -65,6 +65,11 @@ pub struct Events {
     pub position_rejected: bool,
     /// The origin of the positions has jumped: they were followed, and velocity and mass have not noticed.
     pub position_jumped: bool,
+    /// The velocity has changed at once by more than any input explains, as in a collision: it was followed, and the mass has
+    /// not noticed.
+    pub translation_pushed: bool,
+    /// The same for the rates and the moments of inertia.
+    pub rotation_pushed: bool,
     /// A position came between two measurement instants, and was not taken.
     pub position_out_of_step: bool,
     /// A force or a torque was not finite or beyond its limit; the one before was taken in its place.
@@ -95,6 +100,10 @@ pub struct VehicleCounters {
     pub rejected_positions: u32,
     /// Jumps of the origin of positions.
     pub position_jumps: u32,
+    /// Changes of the velocity that no input explains.
+    pub translation_pushes: u32,
+    /// Changes of the rates that no input explains.
+    pub rotation_pushes: u32,
     /// Positions between two measurement instants.
     pub positions_out_of_step: u32,
     /// Wrenches of which the force or the torque was replaced.
@@ -113,6 +122,8 @@ impl VehicleCounters {
             (&mut self.lost_attitudes, events.attitude_lost),
             (&mut self.rejected_positions, events.position_rejected),
             (&mut self.position_jumps, events.position_jumped),
+            (&mut self.translation_pushes, events.translation_pushed),
+            (&mut self.rotation_pushes, events.rotation_pushed),
             (&mut self.positions_out_of_step, events.position_out_of_step),
             (&mut self.rejected_wrenches, events.wrench_rejected),
             (&mut self.mass_changes, events.mass_changed),

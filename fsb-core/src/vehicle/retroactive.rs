@@ -12,9 +12,11 @@
 //!
 //! For sums with infinite memory; sums that fade forget the first guess by themselves.
 
+use super::gyroscopic::differences_known;
 use crate::accumulator::Accumulator;
 use crate::estimator::IdentifierView;
 use crate::moments::{InputMoments, Substep};
+use crate::readout::Parameter;
 use crate::snapshot::{Archive, Stored, stored};
 
 /// One cascade for an input: x4, x5, x6 of (38).
@@ -62,6 +64,8 @@ struct Axis {
     b: Accumulator,
     /// γ A - B as it stands in the parameter's denominator.
     applied: f32,
+    /// The square of what it may be off by, over that of the denominator.
+    doubt: f32,
 }
 
 /// What is to be added to the identifier of an axis.
@@ -71,6 +75,8 @@ pub(crate) struct Shift {
     pub input: [f32; 3],
     /// Σ ω ẑ0 of the parameter.
     pub denominator: f32,
+    /// The square of what its k may be off by, relative to itself, as γ may be.
+    pub doubt: f32,
 }
 
 /// Three axes.
@@ -85,6 +91,8 @@ impl Retroactive {
     /// The correction's largest share of the denominator: beyond, the torque is too small beside the gyroscopic moment for
     /// the fixed point to be one.
     const LARGEST: f32 = 0.5;
+    /// Nothing is known of k any more.
+    const MOST_DOUBT: f32 = 1e6;
 
     pub fn new(substep: Substep) -> Self {
         Self { axes: [Axis::default(); 3], blocks: 0, substep }
@@ -95,6 +103,17 @@ impl Retroactive {
         *self = Self::new(self.substep);
     }
 
+    /// With the identifier's window. Where its sums stay, so do these.
+    fn begin_window(&mut self, view: &IdentifierView<3>) {
+        self.blocks = 0;
+        for (axis, denominator) in self.axes.iter_mut().zip(view.denominators) {
+            if denominator == 0.0 {
+                *axis = Axis::default();
+            }
+            (axis.own, axis.used) = Default::default();
+        }
+    }
+
     /// A control period with w and the γ₀ that was used with it.
     pub fn hold(&mut self, products: &[f32; 3], used: &[f32; 3]) {
         for ((axis, w), gamma) in self.axes.iter_mut().zip(products).zip(used) {
@@ -103,23 +122,32 @@ impl Retroactive {
         }
     }
 
-    /// After a measurement instant: what has to change. `differences` are the newest γ. Nothing, where the identifier has not
-    /// stepped. Cost: about 150 operations per step of the identifier.
-    pub fn measured(&mut self, view: &IdentifierView<3>, differences: &[f32; 3]) -> Option<[Shift; 3]> {
+    /// After a measurement instant: what has to change. `k` are the newest 1/I, where there are any, and `guesses` those
+    /// from before. Nothing, where the identifier has not stepped.
+    /// Cost: about 180 operations per step of the identifier.
+    pub fn measured(
+        &mut self,
+        view: &IdentifierView<3>,
+        k: &[Option<Parameter>; 3],
+        guesses: &[f32; 3],
+    ) -> Option<[Shift; 3]> {
         for axis in &mut self.axes {
             axis.own.sample();
             axis.used.sample();
         }
         let mut shifts = [Shift::default(); 3];
         if view.blocks < self.blocks {
-            self.reset();
+            self.begin_window(view);
         }
         if view.blocks == self.blocks {
             return None;
         }
         self.blocks = view.blocks;
-        let of_axes = view.z0.iter().zip(view.counts).zip(view.denominators).zip(differences);
-        for ((axis, shift), (((z0, counts), denominator), gamma)) in self.axes.iter_mut().zip(&mut shifts).zip(of_axes)
+        let (differences, variances) = differences_known(k, guesses);
+        let known = differences.iter().zip(&variances);
+        let of_axes = view.z0.iter().zip(view.counts).zip(view.denominators).zip(known);
+        for ((axis, shift), (((z0, counts), denominator), (gamma, variance))) in
+            self.axes.iter_mut().zip(&mut shifts).zip(of_axes)
         {
             let (own, used) = (axis.own.step(view), axis.used.step(view));
             if counts {
@@ -128,10 +156,19 @@ impl Retroactive {
             }
             let correction = gamma * axis.a.value() - axis.b.value();
             let limit = Self::LARGEST * (denominator - axis.applied);
-            if correction.abs() <= limit {
-                shift.denominator = correction - axis.applied;
+            let wanted = correction - axis.applied;
+            let (left, share) = if correction.abs() <= limit {
+                shift.denominator = wanted;
                 axis.applied = correction;
-            }
+                (0.0, axis.a.value() / (denominator + wanted))
+            } else {
+                (wanted / denominator, axis.a.value() / denominator)
+            };
+            let doubt = share * share * variance + left * left;
+            let doubt = if doubt <= Self::MOST_DOUBT { doubt } else { Self::MOST_DOUBT };
+            // k is read out a step later.
+            shift.doubt = if doubt > axis.doubt { doubt } else { axis.doubt };
+            axis.doubt = doubt;
             for ((shift, used), own) in shift.input.iter_mut().zip(&mut axis.used.x).zip(axis.own.x) {
                 let wanted = gamma * own;
                 *shift = wanted - *used;
@@ -143,7 +180,7 @@ impl Retroactive {
 }
 
 stored!(Chain { moments, past, sum, before, x });
-stored!(Axis { own, used, a, b, applied });
+stored!(Axis { own, used, a, b, applied, doubt });
 
 impl Stored for Retroactive {
     fn pass(&mut self, archive: &mut dyn Archive) {

@@ -12,6 +12,8 @@ stored!(VehicleCounters {
     lost_attitudes,
     rejected_positions,
     position_jumps,
+    translation_pushes,
+    rotation_pushes,
     positions_out_of_step,
     rejected_wrenches,
     mass_changes,

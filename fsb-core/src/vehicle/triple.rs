@@ -15,7 +15,7 @@ pub(super) fn difference([ax, ay, az]: &[f32; 3], [bx, by, bz]: &[f32; 3]) -> [f
 }
 
 /// All three, or nothing.
-pub(super) fn all([x, y, z]: [Option<f32>; 3]) -> Option<[f32; 3]> {
+pub(super) fn all<T>([x, y, z]: [Option<T>; 3]) -> Option<[T; 3]> {
     Some([x?, y?, z?])
 }
 

@@ -104,6 +104,7 @@ struct JsonFaulty {
     rejected_improbable: u32,
     rejected_frozen: u32,
     jumps: u32,
+    pushes: u32,
     rejected_inputs: u32,
     violations: Vec<String>,
 }
@@ -132,6 +133,7 @@ fn print_faulty(args: &Args, config: &SoakConfig, report: &FaultReport) -> Resul
             rejected_improbable: away.improbable,
             rejected_frozen: away.frozen,
             jumps: away.jumps,
+            pushes: away.pushes,
             rejected_inputs: report.rejected_inputs,
             violations: violations.clone(),
         })?;
@@ -167,6 +169,7 @@ fn print_faulty(args: &Args, config: &SoakConfig, report: &FaultReport) -> Resul
             ("not finite among them", report.not_finite),
             ("ticks without a valid k or state", report.invalid),
             ("jumps", away.jumps.into()),
+            ("pushes", away.pushes.into()),
         ] {
             row(name, Cell::count(seen), Cell::count(0));
         }

@@ -97,6 +97,7 @@ impl FaultReport {
             ("numbers that are not finite", self.not_finite),
             ("ticks without a valid k or state", self.invalid),
             ("jumps of a sensor that did not jump", self.rejections.jumps.into()),
+            ("pushes where nothing pushed", self.rejections.pushes.into()),
         ];
         let beyond = within.into_iter().filter(|(_, value, limit)| value.is_nan() || value > limit);
         beyond

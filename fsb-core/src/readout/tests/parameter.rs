@@ -102,7 +102,7 @@ fn credible_and_rough() {
         let known = |relative_sd: f32| {
             let state = told(k, relative_sd);
             let close = |value: f32| assert!((value / k - 1.0).abs() < 1e-3, "{value}");
-            state.credible().into_iter().chain(state.rough()).for_each(close);
+            state.credible().into_iter().chain(state.rough().map(|k| k.value)).for_each(close);
             (state.credible().is_some(), state.rough().is_some())
         };
         assert_eq!(known(0.19), (true, true), "{k}");
