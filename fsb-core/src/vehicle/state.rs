@@ -5,7 +5,7 @@ use super::gyroscopic::Gyroscopic;
 use super::output::VehicleState;
 use super::triple::{difference, positions, rates};
 use crate::attitude::rotation::{self, Matrix};
-use crate::estimator::AxisState;
+use crate::estimator::{AxisState, Learning};
 use crate::moments::InputMoments;
 
 /// The rotation on its way from the newest attitude to now.
@@ -69,8 +69,12 @@ impl<const D: usize> VehicleEstimator<D> {
     /// the gyroscopic moment may let the rates grow beyond all bounds.
     fn advance(&self, mut ahead: Ahead, mut torque: [InputMoments; 3]) -> Option<Ahead> {
         let before = ahead.angles;
-        let k = self.reciprocals()?;
-        Gyroscopic::add(&mut torque, &ahead.rates, &k, 0.5 * self.period);
+        let mut k = [0.0; 3];
+        // In contact nothing that acts is known.
+        if self.rotation.learning() != Learning::Contact {
+            k = self.reciprocals()?;
+            Gyroscopic::add(&mut torque, &ahead.rates, &k, 0.5 * self.period);
+        }
         for (((angle, rate), input), k) in ahead.angles.iter_mut().zip(&mut ahead.rates).zip(&torque).zip(k) {
             let gain = k * self.period;
             *angle += self.period * (*rate + gain * input.j2);
