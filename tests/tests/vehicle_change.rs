@@ -113,6 +113,36 @@ fn nothing_learned_nothing_changed() {
     }
 }
 
+/// After a gap in the positions, bridged or not, a change is found as soon as without one.
+#[test]
+fn after_a_gap() {
+    for course in [Course::HOVER, Course::AGGRESSIVE] {
+        for gap in [0.3, 0.7, 1.5, 1.9, 2.5] {
+            let mut vehicle = VehicleEstimator::<1>::new(&config()).unwrap();
+            let mut flight = noisy(course, 2);
+            let (mut wrench, mut told) = (flight.pilot(), None);
+            while flight.t() < 12.0 {
+                let mut measured = flight.measure();
+                if flight.t() > 5.0 && flight.t() < 5.0 + gap {
+                    measured.position = None;
+                }
+                let events = vehicle.update(&measured, &wrench);
+                if events.mass_changed {
+                    told = told.or(Some(flight.t() - 10.0));
+                }
+                if (flight.t() - 10.0).abs() < 1e-9 {
+                    flight.body.mass *= 0.6;
+                }
+                wrench = flight.pilot_on(&flight.seen(&vehicle.state()));
+                flight.step(&wrench);
+            }
+            let off = mass(&vehicle) / flight.body.mass - 1.0;
+            println!("{course:?}, {gap} s: told after {told:.2?} s, mass off by {off:.1e}");
+            assert!(told.is_some_and(|t| t > 0.0 && t < 0.5) && off.abs() < 0.02, "{course:?} {gap}: {told:?} {off}");
+        }
+    }
+}
+
 fn alarms(course: Course, disturbance: [f64; 3], seconds: f64, seed: u64) -> u32 {
     let mut vehicle = VehicleEstimator::new(&config()).unwrap();
     let mut flight = noisy(course, seed);
