@@ -171,3 +171,39 @@ fn slower_and_missing() {
     });
     within("a gap", got, EXACT);
 }
+
+/// A limit of the torque is one of what the actuators are told: the gyroscopic moment of a body that tumbles, many times that here,
+/// is not cut off by it.
+#[test]
+fn gyroscopic_moment_beyond_the_limit() {
+    let body = RigidBody { rates: [10.0, 0.5, 10.0], ..RigidBody::default() };
+    let run = |limit: f64| {
+        let mut config = known(2e-3, &body);
+        config.rotation.input_limit = limit;
+        // On the known moments of inertia throughout.
+        config.rotation.parameter_settle = 1e3;
+        let mut vehicle = VehicleEstimator::<1>::new(&config).unwrap();
+        let mut flight = Flight::new(body, Course::HOVER, 2e-3, 1);
+        let wrench = |t: f64| fsb_core::vehicle::Wrench {
+            force: [0.0, 0.0, 25.0],
+            torque: [0.2 * (9.0 * t).sin(), 0.2 * (7.0 * t).cos(), 0.1 * (5.0 * t).sin()].map(|x| x as f32),
+        };
+        let mut worst = [0.0_f64; 4];
+        let mut told = wrench(0.0);
+        while flight.t() < 4.0 {
+            let events = vehicle.update(&flight.measure(), &told);
+            assert!(!events.any(), "{events:?}");
+            if flight.t() > 0.4 {
+                let errors = errors(&vehicle.state(), &flight.body);
+                worst = std::array::from_fn(|i| worst[i].max(errors[i]));
+            }
+            told = wrench(flight.t());
+            flight.step(&told);
+        }
+        worst
+    };
+    let (free, limited) = (run(1e5), run(0.3));
+    println!("rates off by {:.1e} rad/s, with a limit of 0.3 N m by {:.1e}", free[3], limited[3]);
+    assert_eq!(limited, free);
+    assert!(free[3] < 0.02, "{free:?}");
+}
