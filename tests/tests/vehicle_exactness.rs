@@ -207,3 +207,32 @@ fn gyroscopic_moment_beyond_the_limit() {
     assert_eq!(limited, free);
     assert!(free[3] < 0.02, "{free:?}");
 }
+
+/// A body that spins on and on: its angles begin anew before they lose digits or run into their limit.
+#[test]
+fn spinning_on() {
+    for (limit, axis) in [(1e5, 2), (100.0, 2), (7.0, 0)] {
+        for rate in [20.0, -20.0] {
+            let mut config = known(0.01, &RigidBody::default());
+            config.rotation.measurement_limit = limit;
+            let mut vehicle = VehicleEstimator::<1>::new(&config).unwrap();
+            let wrench = fsb_core::vehicle::Wrench::default();
+            let (mut worst, mut rates) = (0.0_f64, [0.0; 3]);
+            rates[axis] = rate;
+            for tick in 0..60_000 {
+                let mut turn = [0.0; 3];
+                turn[axis] = (rate * f64::from(tick) * 0.01) % std::f64::consts::TAU;
+                let attitude = fsb_tests::rigid_body::matrix(&Quaternion::from_rotation_vector(turn));
+                let events = vehicle.update(&Measured { position: None, attitude: Some(attitude) }, &wrench);
+                assert!(!events.any(), "{limit} rad, tick {tick}: {events:?}");
+                if tick > 100 {
+                    let got = vehicle.state().rates.expect("all the time");
+                    worst = (0..3).map(|i| (f64::from(got[i]) - rates[i]).abs()).fold(worst, f64::max);
+                }
+            }
+            println!("{rate} rad/s, limit {limit} rad: off by {worst:.1e} rad/s");
+            // Some ulp of 64 rad in a period, through the observer: 4e-6 · λ.
+            assert!(worst < 1e-4, "{limit} rad: {worst}");
+        }
+    }
+}

@@ -161,6 +161,11 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         self.fresh(self.estimator.states_after(ahead, periods))
     }
 
+    /// As [`Estimator::translate`].
+    pub(crate) fn translate(&mut self, by: &[f32; N]) {
+        self.estimator.translate(by);
+    }
+
     pub(crate) fn shift_input(&mut self, axis: usize, by: [f32; 3], denominator: f32) {
         self.estimator.shift_input(axis, by, denominator);
     }

@@ -53,6 +53,8 @@ pub struct VehicleEstimator<const D: usize> {
     pub(super) position_limit: f32,
     pub(super) force_limit: f32,
     pub(super) torque_limit: f32,
+    /// A body angle of larger magnitude is moved back by that (rad). What comes of it is exact, as it is within twice that.
+    pub(super) far: f32,
     pub(super) last: Wrench,
     /// Attitudes in succession that were too far away to be followed, and how many make a start anew.
     pub(super) too_far: u32,
@@ -91,6 +93,7 @@ impl<const D: usize> VehicleEstimator<D> {
             position_limit: config.translation.measurement_limit as f32,
             force_limit: config.translation.input_limit as f32,
             torque_limit: config.rotation.input_limit as f32,
+            far: libm::fmin(64.0, 0.5 * config.rotation.measurement_limit) as f32,
             last: Wrench::default(),
             too_far: 0,
             enough: config.rotation.guard.jump_after,
@@ -196,6 +199,25 @@ impl<const D: usize> VehicleEstimator<D> {
             && let Some(predicted) = positions(&self.rotation.states())
         {
             self.angles.turn_by(&difference(&predicted, &self.angles.angles()));
+        }
+        self.unwind();
+    }
+
+    /// Angles that have turned far are taken from a later origin: they would lose digits, and in the end their limit.
+    fn unwind(&mut self) {
+        let far = self.far;
+        let by = self.angles.angles().map(|angle| {
+            if angle > far {
+                -far
+            } else if angle < -far {
+                far
+            } else {
+                0.0
+            }
+        });
+        if by != [0.0; 3] {
+            self.angles.translate(&by);
+            self.rotation.translate(&by);
         }
     }
 
