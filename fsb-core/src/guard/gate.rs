@@ -88,7 +88,7 @@ impl Gate {
         let gap = f32::from(self.gap);
         let stretch = 1.0 + design.lambda_t * gap;
         // A large innovation is on its way back to zero.
-        let known = design.step + design.fall * gap * gap + design.decay * self.innovation.abs();
+        let known = design.step + (design.drift + design.fall * gap) * gap + design.decay * self.innovation.abs();
         let trusted = self.values >= Self::ENOUGH;
         // What was expected is no outlier: it may be the last one that was, and passed.
         let off = if innovation.abs() < step.abs() { innovation } else { step };
