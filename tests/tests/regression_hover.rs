@@ -47,6 +47,26 @@ fn an_axis_that_hovers_does_not_spoil_the_others() {
     assert!((f64::from(estimator.parameter().expect("valid").value) / flight.k - 1.0).abs() < 1e-3);
 }
 
+/// A steady wind on axes that do not move: their constant force tells nothing of k, be z in hover or moving.
+#[test]
+fn a_wind_that_cannot_be_told_does_not_spoil_k() {
+    for up_and_down in [0.0, 0.5] {
+        let flight =
+            DragFlight { amplitude: [0.0, 0.0, up_and_down], disturbance: [2.3, -1.5, 0.0], noise: 0.001, ..FLIGHT };
+        let mut estimator = estimator(flight.period);
+        let (mut flyer, mut rng) = (Flyer::new(&flight), Pcg64::seed_from_u64(6));
+        for _ in 0..3 {
+            fly_on(&mut estimator, &mut flyer, &flight, 20.0, &mut rng);
+            let k = estimator.parameter().expect("valid");
+            let (off, sd) = (f64::from(k.value) / flight.k - 1.0, f64::from(k.sd()) / flight.k);
+            println!("z ±{up_and_down} m, seed 6: k off by {off:.1e}, its sd {sd:.1e}");
+            assert!(off.abs() < 5e-3 && off.abs() < 5.0 * sd + 1e-3, "{off} {sd}");
+            let [x, y, _] = estimator.terms();
+            assert_eq!([x.disturbance, y.disturbance], [Term::NotObservable; 2]);
+        }
+    }
+}
+
 /// What has been learnt in flight stays known in the hover after it.
 #[test]
 fn known_terms_stay_known() {

@@ -6,7 +6,8 @@
 //! 4. k with what is left, and its status;
 //! 5. each axis's D and d for that k, and the observer's model.
 //!
-//! Columns dropped count as zero. An axis that is not excited beyond hover therefore says of k what gravity says, and does
+//! Columns dropped count as zero, but for d on an axis without a known drift: there a constant force is one against d, and says
+//! nothing of k. An axis that is not excited beyond hover therefore says of k what gravity says, and does
 //! not spoil it for the others.
 
 use super::axis::{Axis, Columns, Source};
@@ -102,7 +103,9 @@ impl Axis {
 
     fn keep(&mut self, columns: Columns, common: &Common) {
         self.columns = columns;
-        self.reduced = self.triangle.keep(columns.disturbance, columns.drag, common.row_rate2);
+        // Where nothing constant is known to pull, a constant force is one against d, which may be there without being told.
+        let constant = columns.disturbance || (self.own.identify.disturbance && self.own.drift == 0.0);
+        self.reduced = self.triangle.keep(constant, columns.drag, common.row_rate2);
     }
 
     /// The rows taken in, as far as the window was open: the noise of ẑ2 grows faster with it than its signals do.
