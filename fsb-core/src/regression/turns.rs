@@ -98,7 +98,6 @@ impl Axis {
             self.keep(kept, common);
             self.weigh(k.value, common);
         }
-        self.used = kept;
     }
 
     fn keep(&mut self, columns: Columns, common: &Common) {
@@ -135,6 +134,8 @@ impl Axis {
 
     fn settle(&mut self, pooled: &Pooled, clock: &Clock, common: &Common) {
         let known = pooled.newest();
+        // With their values, measurements after they were chosen.
+        self.used = self.columns;
         (self.drag, self.disturbance) = self.terms(known);
         if !(is_slight(&self.drag, common) && is_gentle(&self.disturbance)) {
             // Another k than the one they were chosen with has thrown them off.
