@@ -1,6 +1,8 @@
 //! Hover: what cannot be told is not, and does not spoil what can.
 
-use fsb_core::regression::{DragEstimator, Term};
+use fsb_core::Tuning;
+use fsb_core::readout::Memory;
+use fsb_core::regression::{DragConfig, DragEstimator, Identify, Term};
 use fsb_tests::drag_flight::{
     DRIFT, DragAxis, DragFlight, FLIGHT, Flyer, Instant, estimator, feed, fly, fly_on, value,
 };
@@ -64,6 +66,31 @@ fn a_wind_that_cannot_be_told_does_not_spoil_k() {
             let [x, y, _] = estimator.terms();
             assert_eq!([x.disturbance, y.disturbance], [Term::NotObservable; 2]);
         }
+    }
+}
+
+/// The same where D alone is asked for: what varies counts beyond a constant, which is all there is to a hover.
+#[test]
+fn a_hover_tells_no_drag() {
+    for (period, lambda, noise) in [(0.01, 2.0, 0.01), (0.002, 0.5, 0.01), (0.002, 0.5, 0.03)] {
+        let (amplitude, disturbance) = ([1.0, 0.0, 0.0], [0.0; 3]);
+        let flight = DragFlight { period, amplitude, disturbance, drag: [1.0, 0.0, 3.0], noise, ..FLIGHT };
+        let config = DragConfig {
+            drift: DRIFT,
+            identify: [Identify { drag: true, disturbance: false }; 3],
+            identifier: Tuning::from_lambda(lambda),
+            memory: Memory::Fading { tau: 10.0 / lambda },
+            ..DragConfig::new(period)
+        };
+        let mut estimator = DragEstimator::new(&config).expect("a valid configuration");
+        let mut rng = Pcg64::seed_from_u64(9);
+        for instant in flight.fly(60.0, &mut rng) {
+            feed(&mut estimator, &instant);
+            let [_, y, z] = estimator.terms();
+            assert_eq!([y.drag, z.drag], [Term::NotObservable; 2], "{lambda} 1/s, seed 9, {} s", instant.t);
+        }
+        let k = f64::from(estimator.parameter().expect("valid").value) / flight.k - 1.0;
+        assert!(k.abs() < 1e-3, "{k}");
     }
 }
 

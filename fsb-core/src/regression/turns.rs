@@ -60,7 +60,8 @@ impl Axis {
         let Identify { drag, disturbance } = self.own.identify;
         let asked = Columns { drag: drag && self.triangle.is_moving(), disturbance };
         let k = pooled.newest().value;
-        let information = self.triangle.keep(asked.disturbance, asked.drag, common.row_rate2).information();
+        // Beyond a constant, whether d is asked for or not.
+        let information = self.triangle.keep(true, asked.drag, common.row_rate2).information();
         let excitation2 = k * k * (information / self.triangle.constant());
         let stays = if self.used.count() > 0.0 { EXCITATION_STAYS } else { 1.0 };
         let excited = excitation2 >= stays * common.excitation2;
