@@ -31,6 +31,21 @@ fn taken(estimator: &Estimator<2, 2>) -> Vec<u8> {
     bytes
 }
 
+/// From the first measurement on, whatever the tuning: rounding in the gains of the first few makes no state that is refused.
+#[test]
+fn the_first_measurements_of_any_tuning() {
+    let flight = flight();
+    for step in 1..400_u32 {
+        let observer = fsb_core::Tuning { lambda: 0.25 * f64::from(step), q: 0.11 * f64::from(step) };
+        let config = EstimatorConfig { observer, nominal: [Some(1.0); 2], ..EstimatorConfig::new(0.01) };
+        let (mut original, mut restored) = (Estimator::new(&config).unwrap(), Estimator::new(&config).unwrap());
+        for n in 0..8 {
+            tick(&mut original, &flight, n);
+            assert_eq!(restored.restore(&taken(&original)), Ok(()), "{observer:?}, {n}");
+        }
+    }
+}
+
 /// At any moment, with blocks of any length: the restored estimator and the one it was taken from never part.
 #[test]
 fn what_is_restored_goes_on_to_the_last_bit() {
