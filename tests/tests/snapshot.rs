@@ -46,6 +46,26 @@ fn the_first_measurements_of_any_tuning() {
     }
 }
 
+/// An input beyond its limit, which is rejected, is not what actuators are taken to have held, and makes no state that is refused.
+#[test]
+fn a_rejected_input_before_it() {
+    let config = EstimatorConfig { input_limit: 10.0, ..config(1) };
+    let guard = GuardConfig::default();
+    let mut original = Guarded::new(&config, &guard).unwrap();
+    for f in [1.0, 2.0, 1e3, -25.0, f32::INFINITY] {
+        original.measure(&[Some(1.0), Some(-1.0)]).unwrap();
+        original.apply(&[f, -f]);
+        let mut bytes = vec![0; original.snapshot_length()];
+        original.snapshot(&mut bytes).unwrap();
+        let mut restored = Guarded::new(&config, &guard).unwrap();
+        assert_eq!(restored.restore(&bytes), Ok(()), "{f}");
+    }
+    let rejected = original.counters().rejected_inputs;
+    assert_eq!(rejected, 6);
+    original.missed(5);
+    assert_eq!(original.counters().rejected_inputs, rejected, "the last one that was taken is held");
+}
+
 /// At any moment, with blocks of any length: the restored estimator and the one it was taken from never part.
 #[test]
 fn what_is_restored_goes_on_to_the_last_bit() {

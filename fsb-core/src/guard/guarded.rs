@@ -188,8 +188,9 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
     }
 
     fn remember(&mut self, moments: &[InputMoments; N]) {
+        let limit = self.estimator.input_limit();
         for (last, given) in self.last.iter_mut().zip(moments) {
-            if given.j1.is_finite() && given.j2.is_finite() {
+            if given.j1.abs() <= limit && given.j2.abs() <= limit {
                 *last = *given;
             }
         }
