@@ -203,24 +203,6 @@ impl<const D: usize> VehicleEstimator<D> {
         self.unwind();
     }
 
-    /// Angles that have turned far are taken from a later origin: they would lose digits, and in the end their limit.
-    fn unwind(&mut self) {
-        let far = self.far;
-        let by = self.angles.angles().map(|angle| {
-            if angle > far {
-                -far
-            } else if angle < -far {
-                far
-            } else {
-                0.0
-            }
-        });
-        if by != [0.0; 3] {
-            self.angles.translate(&by);
-            self.rotation.translate(&by);
-        }
-    }
-
     /// The gyroscopic moment so far, with what is now known of the moments of inertia.
     fn look_back(&mut self) {
         let Some(retroactive) = &mut self.retroactive else { return };
