@@ -120,10 +120,10 @@ impl Detector {
             response.w += input.j1 - correction;
         }
         // The first one after a gap has another variance.
-        let sound = view.measured && self.measured;
+        let (sound, gap) = (view.measured && self.measured, !view.measured && !self.measured);
         self.measured = view.measured;
         if !sound {
-            if !self.measured && self.has_outgrown(view) {
+            if gap && self.has_outgrown(view) {
                 self.restart();
             }
             return false;
@@ -148,7 +148,15 @@ impl Detector {
     /// Whether a gap, of some 3/λ, has let φ grow so far that its mean would be one of the gap from then on, and what comes
     /// after it small beside it. The observer's start is forgotten by the time something is decided again.
     fn has_outgrown(&self, view: &InnovationView<3>) -> bool {
-        self.terms(view).iter().zip(&self.usual).any(|(term, usual)| term.square > Self::GAP * usual)
+        let mut usual = self.usual.iter();
+        if self.pooled {
+            let square: f32 = self.responses.iter().map(|response| response.phi * response.phi).sum();
+            return usual.next().is_some_and(|usual| square > Self::GAP * usual);
+        }
+        let noises = self.responses.iter().zip(&view.noise_variances);
+        noises
+            .zip(usual)
+            .any(|((response, noise), usual)| noise.is_some() && response.phi * response.phi > Self::GAP * usual)
     }
 
     /// Of each parameter, the first one where all axes share it.
