@@ -1,6 +1,8 @@
 //! Hover: what cannot be told is not, and does not spoil what can.
 
-use fsb_core::regression::{DragEstimator, Term};
+use fsb_core::Tuning;
+use fsb_core::readout::Memory;
+use fsb_core::regression::{DragConfig, DragEstimator, Identify, Term};
 use fsb_tests::drag_flight::{
     DRIFT, DragAxis, DragFlight, FLIGHT, Flyer, Instant, estimator, feed, fly, fly_on, value,
 };
@@ -45,6 +47,51 @@ fn an_axis_that_hovers_does_not_spoil_the_others() {
         );
     }
     assert!((f64::from(estimator.parameter().expect("valid").value) / flight.k - 1.0).abs() < 1e-3);
+}
+
+/// A steady wind on axes that do not move: their constant force tells nothing of k, be z in hover or moving.
+#[test]
+fn a_wind_that_cannot_be_told_does_not_spoil_k() {
+    for up_and_down in [0.0, 0.5] {
+        let flight =
+            DragFlight { amplitude: [0.0, 0.0, up_and_down], disturbance: [2.3, -1.5, 0.0], noise: 0.001, ..FLIGHT };
+        let mut estimator = estimator(flight.period);
+        let (mut flyer, mut rng) = (Flyer::new(&flight), Pcg64::seed_from_u64(6));
+        for _ in 0..3 {
+            fly_on(&mut estimator, &mut flyer, &flight, 20.0, &mut rng);
+            let k = estimator.parameter().expect("valid");
+            let (off, sd) = (f64::from(k.value) / flight.k - 1.0, f64::from(k.sd()) / flight.k);
+            println!("z ±{up_and_down} m, seed 6: k off by {off:.1e}, its sd {sd:.1e}");
+            assert!(off.abs() < 5e-3 && off.abs() < 5.0 * sd + 1e-3, "{off} {sd}");
+            let [x, y, _] = estimator.terms();
+            assert_eq!([x.disturbance, y.disturbance], [Term::NotObservable; 2]);
+        }
+    }
+}
+
+/// The same where D alone is asked for: what varies counts beyond a constant, which is all there is to a hover.
+#[test]
+fn a_hover_tells_no_drag() {
+    for (period, lambda, noise) in [(0.01, 2.0, 0.01), (0.002, 0.5, 0.01), (0.002, 0.5, 0.03)] {
+        let (amplitude, disturbance) = ([1.0, 0.0, 0.0], [0.0; 3]);
+        let flight = DragFlight { period, amplitude, disturbance, drag: [1.0, 0.0, 3.0], noise, ..FLIGHT };
+        let config = DragConfig {
+            drift: DRIFT,
+            identify: [Identify { drag: true, disturbance: false }; 3],
+            identifier: Tuning::from_lambda(lambda),
+            memory: Memory::Fading { tau: 10.0 / lambda },
+            ..DragConfig::new(period)
+        };
+        let mut estimator = DragEstimator::new(&config).expect("a valid configuration");
+        let mut rng = Pcg64::seed_from_u64(9);
+        for instant in flight.fly(60.0, &mut rng) {
+            feed(&mut estimator, &instant);
+            let [_, y, z] = estimator.terms();
+            assert_eq!([y.drag, z.drag], [Term::NotObservable; 2], "{lambda} 1/s, seed 9, {} s", instant.t);
+        }
+        let k = f64::from(estimator.parameter().expect("valid").value) / flight.k - 1.0;
+        assert!(k.abs() < 1e-3, "{k}");
+    }
 }
 
 /// What has been learnt in flight stays known in the hover after it.

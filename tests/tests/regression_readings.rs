@@ -34,6 +34,32 @@ fn the_inner_signals_obey_the_identity() {
     assert!(largest.iter().all(|&x| x > 0.05), "{largest:?}");
 }
 
+/// A term is told with its value, from the first instant on: rows come every so many measurements, and what they say is worked out
+/// in between.
+#[test]
+fn no_term_before_its_value() {
+    for (period, noise) in [(0.001, 0.0), (0.002, 0.01), (0.01, 0.001)] {
+        let flight = DragFlight { period, noise, ..FLIGHT };
+        let mut estimator = estimator(period);
+        let (mut flyer, mut rng) = (Flyer::new(&flight), Pcg64::seed_from_u64(8));
+        let mut told = [[false; 2]; 3];
+        for n in 0..(20.0 / period) as u32 {
+            feed(&mut estimator, &flyer.step(&flight, &mut rng));
+            for (axis, terms) in estimator.terms().into_iter().enumerate() {
+                let truths = [flight.drag[axis], flight.disturbance[axis]];
+                for (of, (term, truth)) in [terms.drag, terms.disturbance].into_iter().zip(truths).enumerate() {
+                    if let Term::Known { value, sd } = term {
+                        let (off, sd) = (f64::from(value) - truth, f64::from(sd));
+                        assert!(off.abs() < 6.0 * sd + 0.02, "{period} s, {n}, axis {axis}: {term:?}, truth {truth}");
+                        told[axis][of] = true;
+                    }
+                }
+            }
+        }
+        assert_eq!(told, [[true; 2]; 3]);
+    }
+}
+
 /// With k, D and d that were identified in another air the residual tells how much is unexplained.
 #[test]
 fn the_residual_is_what_is_not_explained() {

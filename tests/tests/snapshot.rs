@@ -31,6 +31,41 @@ fn taken(estimator: &Estimator<2, 2>) -> Vec<u8> {
     bytes
 }
 
+/// From the first measurement on, whatever the tuning: rounding in the gains of the first few makes no state that is refused.
+#[test]
+fn the_first_measurements_of_any_tuning() {
+    let flight = flight();
+    for step in 1..400_u32 {
+        let observer = fsb_core::Tuning { lambda: 0.25 * f64::from(step), q: 0.11 * f64::from(step) };
+        let config = EstimatorConfig { observer, nominal: [Some(1.0); 2], ..EstimatorConfig::new(0.01) };
+        let (mut original, mut restored) = (Estimator::new(&config).unwrap(), Estimator::new(&config).unwrap());
+        for n in 0..8 {
+            tick(&mut original, &flight, n);
+            assert_eq!(restored.restore(&taken(&original)), Ok(()), "{observer:?}, {n}");
+        }
+    }
+}
+
+/// An input beyond its limit, which is rejected, is not what actuators are taken to have held, and makes no state that is refused.
+#[test]
+fn a_rejected_input_before_it() {
+    let config = EstimatorConfig { input_limit: 10.0, ..config(1) };
+    let guard = GuardConfig::default();
+    let mut original = Guarded::new(&config, &guard).unwrap();
+    for f in [1.0, 2.0, 1e3, -25.0, f32::INFINITY] {
+        original.measure(&[Some(1.0), Some(-1.0)]).unwrap();
+        original.apply(&[f, -f]);
+        let mut bytes = vec![0; original.snapshot_length()];
+        original.snapshot(&mut bytes).unwrap();
+        let mut restored = Guarded::new(&config, &guard).unwrap();
+        assert_eq!(restored.restore(&bytes), Ok(()), "{f}");
+    }
+    let rejected = original.counters().rejected_inputs;
+    assert_eq!(rejected, 6);
+    original.missed(5);
+    assert_eq!(original.counters().rejected_inputs, rejected, "the last one that was taken is held");
+}
+
 /// At any moment, with blocks of any length: the restored estimator and the one it was taken from never part.
 #[test]
 fn what_is_restored_goes_on_to_the_last_bit() {

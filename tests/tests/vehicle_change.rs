@@ -1,6 +1,6 @@
 //! A load dropped in flight, and the value held until the new one is known.
 
-use fsb_core::estimator::StateStatus;
+use fsb_core::estimator::{Learning, StateStatus};
 use fsb_core::readout::ParameterStatus;
 use fsb_core::vehicle::{ChangeRule, Events, Expected, Group, VehicleConfig, VehicleEstimator};
 use fsb_tests::rigid_body::RigidBody;
@@ -91,6 +91,56 @@ fn a_dropped_inertia() {
     let errors = [0, 1, 2].map(|i| f64::from(vehicle.inertia()[i].unwrap().value) / (0.6 * truth[i]) - 1.0);
     println!("told after {told:?} s; after 5 s off by {errors:.4?}");
     assert!(told.unwrap() < 1.0 && errors.iter().all(|e| e.abs() < 0.02));
+}
+
+/// While nothing is learned nothing is taken for a change: the parameters stay as they are, and in contact, where the states are
+/// predicted with constant velocity, any motion would look like one.
+#[test]
+fn nothing_learned_nothing_changed() {
+    for learning in [Learning::Off, Learning::Contact] {
+        let mut vehicle = VehicleEstimator::new(&config()).unwrap();
+        fly(&mut noisy(Course::AGGRESSIVE, 9), &mut vehicle, 10.0, |flight, vehicle, events| {
+            if (flight.t() - 4.0).abs() < 1e-9 {
+                vehicle.set_learning(learning);
+            } else if (flight.t() - 6.0).abs() < 1e-9 {
+                flight.body.mass *= 0.6;
+                flight.body.inertia = flight.body.inertia.map(|i| 0.6 * i);
+            }
+            assert!(!events.mass_changed && !events.inertia_changed, "{learning:?}: {events:?} at {}", flight.t());
+        });
+        let statuses = vehicle.inertia_status().into_iter().chain([vehicle.mass_status()]);
+        assert!(statuses.into_iter().all(|status| status == ParameterStatus::Valid), "{learning:?}");
+    }
+}
+
+/// After a gap in the positions, bridged or not, a change is found as soon as without one.
+#[test]
+fn after_a_gap() {
+    for course in [Course::HOVER, Course::AGGRESSIVE] {
+        for gap in [0.3, 0.7, 1.5, 1.9, 2.5] {
+            let mut vehicle = VehicleEstimator::<1>::new(&config()).unwrap();
+            let mut flight = noisy(course, 2);
+            let (mut wrench, mut told) = (flight.pilot(), None);
+            while flight.t() < 12.0 {
+                let mut measured = flight.measure();
+                if flight.t() > 5.0 && flight.t() < 5.0 + gap {
+                    measured.position = None;
+                }
+                let events = vehicle.update(&measured, &wrench);
+                if events.mass_changed {
+                    told = told.or(Some(flight.t() - 10.0));
+                }
+                if (flight.t() - 10.0).abs() < 1e-9 {
+                    flight.body.mass *= 0.6;
+                }
+                wrench = flight.pilot_on(&flight.seen(&vehicle.state()));
+                flight.step(&wrench);
+            }
+            let off = mass(&vehicle) / flight.body.mass - 1.0;
+            println!("{course:?}, {gap} s: told after {told:.2?} s, mass off by {off:.1e}");
+            assert!(told.is_some_and(|t| t > 0.0 && t < 0.5) && off.abs() < 0.02, "{course:?} {gap}: {told:?} {off}");
+        }
+    }
 }
 
 fn alarms(course: Course, disturbance: [f64; 3], seconds: f64, seed: u64) -> u32 {

@@ -171,3 +171,68 @@ fn slower_and_missing() {
     });
     within("a gap", got, EXACT);
 }
+
+/// A limit of the torque is one of what the actuators are told: the gyroscopic moment of a body that tumbles, many times that here,
+/// is not cut off by it.
+#[test]
+fn gyroscopic_moment_beyond_the_limit() {
+    let body = RigidBody { rates: [10.0, 0.5, 10.0], ..RigidBody::default() };
+    let run = |limit: f64| {
+        let mut config = known(2e-3, &body);
+        config.rotation.input_limit = limit;
+        // On the known moments of inertia throughout.
+        config.rotation.parameter_settle = 1e3;
+        let mut vehicle = VehicleEstimator::<1>::new(&config).unwrap();
+        let mut flight = Flight::new(body, Course::HOVER, 2e-3, 1);
+        let wrench = |t: f64| fsb_core::vehicle::Wrench {
+            force: [0.0, 0.0, 25.0],
+            torque: [0.2 * (9.0 * t).sin(), 0.2 * (7.0 * t).cos(), 0.1 * (5.0 * t).sin()].map(|x| x as f32),
+        };
+        let mut worst = [0.0_f64; 4];
+        let mut told = wrench(0.0);
+        while flight.t() < 4.0 {
+            let events = vehicle.update(&flight.measure(), &told);
+            assert!(!events.any(), "{events:?}");
+            if flight.t() > 0.4 {
+                let errors = errors(&vehicle.state(), &flight.body);
+                worst = std::array::from_fn(|i| worst[i].max(errors[i]));
+            }
+            told = wrench(flight.t());
+            flight.step(&told);
+        }
+        worst
+    };
+    let (free, limited) = (run(1e5), run(0.3));
+    println!("rates off by {:.1e} rad/s, with a limit of 0.3 N m by {:.1e}", free[3], limited[3]);
+    assert_eq!(limited, free);
+    assert!(free[3] < 0.02, "{free:?}");
+}
+
+/// A body that spins on and on: its angles begin anew before they lose digits or run into their limit.
+#[test]
+fn spinning_on() {
+    for (limit, axis) in [(1e5, 2), (100.0, 2), (7.0, 0)] {
+        for rate in [20.0, -20.0] {
+            let mut config = known(0.01, &RigidBody::default());
+            config.rotation.measurement_limit = limit;
+            let mut vehicle = VehicleEstimator::<1>::new(&config).unwrap();
+            let wrench = fsb_core::vehicle::Wrench::default();
+            let (mut worst, mut rates) = (0.0_f64, [0.0; 3]);
+            rates[axis] = rate;
+            for tick in 0..60_000 {
+                let mut turn = [0.0; 3];
+                turn[axis] = (rate * f64::from(tick) * 0.01) % std::f64::consts::TAU;
+                let attitude = fsb_tests::rigid_body::matrix(&Quaternion::from_rotation_vector(turn));
+                let events = vehicle.update(&Measured { position: None, attitude: Some(attitude) }, &wrench);
+                assert!(!events.any(), "{limit} rad, tick {tick}: {events:?}");
+                if tick > 100 {
+                    let got = vehicle.state().rates.expect("all the time");
+                    worst = (0..3).map(|i| (f64::from(got[i]) - rates[i]).abs()).fold(worst, f64::max);
+                }
+            }
+            println!("{rate} rad/s, limit {limit} rad: off by {worst:.1e} rad/s");
+            // Some ulp of 64 rad in a period, through the observer: 4e-6 · λ.
+            assert!(worst < 1e-4, "{limit} rad: {worst}");
+        }
+    }
+}

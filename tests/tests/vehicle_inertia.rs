@@ -1,5 +1,6 @@
 //! Mass and moments of inertia at large attitudes (issue: ±0.4 rad roll and pitch, ±0.8 rad yaw, first guess 60 % too high).
 
+use fsb_core::readout::Readout;
 use fsb_core::vehicle::{Expected, VehicleConfig, VehicleEstimator};
 use fsb_tests::rigid_body::RigidBody;
 use fsb_tests::six_axes::{Course, Flight};
@@ -57,4 +58,27 @@ fn with_noise() {
         println!("seed {seed}: mass, inertia off by {:.5?} from 3 s on", worst[0]);
         assert!(worst[0][0] < 0.01 && worst[0][1] < 0.01, "seed {seed}: {worst:?}");
     }
+}
+
+/// The paper's ratio (44) of sums that do not fade, without noise: what the first guess has put into them fades like 1/t.
+#[test]
+fn absolute_ratio() {
+    let body = RigidBody::default();
+    let mut flight = Flight::new(body, Course::AGGRESSIVE, 0.005, 1);
+    let mut config = config(0.005, 1, &body);
+    config.rotation.readout = Readout::AbsoluteRatio;
+    let mut vehicle = VehicleEstimator::<1>::new(&config).unwrap();
+    let (mut wrench, mut worst) = (flight.pilot(), 0.0_f64);
+    while flight.t() < 10.0 {
+        vehicle.update(&flight.measure(), &wrench);
+        if flight.t() > 3.0 {
+            for (found, truth) in vehicle.inertia().iter().zip(body.inertia) {
+                worst = worst.max((f64::from(found.expect("valid").value) / truth - 1.0).abs());
+            }
+        }
+        wrench = flight.pilot();
+        flight.step(&wrench);
+    }
+    println!("absolute ratio: inertia off by {worst:.5} from 3 s on");
+    assert!(worst < 0.01, "{worst}");
 }

@@ -2,7 +2,7 @@
 
 use fsb_core::estimator::Learning;
 use fsb_core::readout::{Memory, ParameterStatus, Readout};
-use fsb_core::vehicle::{Events, Expected, GroupConfig, VehicleConfig, VehicleEstimator};
+use fsb_core::vehicle::{Events, Expected, GroupConfig, VehicleConfig, VehicleEstimator, Wrench};
 use fsb_tests::rigid_body::RigidBody;
 use fsb_tests::six_axes::{Course, Flight};
 
@@ -123,6 +123,21 @@ fn learning_is_told_to_both() {
             assert_eq!((vehicle.mass(), vehicle.inertia()), (Some(mass), inertia), "{n}");
         }
     }
+}
+
+/// On the ground nobody knows what acts: thrust and torque move nothing, over the time by which measurements are late neither.
+#[test]
+fn at_rest_in_contact() {
+    let mut config = config();
+    (config.translation.latency, config.rotation.latency) = (10, 8);
+    let mut vehicle = VehicleEstimator::<10>::new(&config).unwrap();
+    vehicle.set_learning(Learning::Contact);
+    let measured = Flight::new(RigidBody::default(), Course::HOVER, PERIOD, 1).measure();
+    for _ in 0..200 {
+        vehicle.update(&measured, &Wrench { force: [0.0, 0.0, 15.0], torque: [0.3, 0.1, 0.0] });
+    }
+    let state = vehicle.state();
+    assert_eq!((state.velocity, state.rates), (Some([0.0; 3]), Some([0.0; 3])));
 }
 
 #[test]

@@ -62,6 +62,33 @@ fn nonsense_in_flight() {
     assert!((mass / 2.5 - 1.0).abs() < 0.002, "{mass}");
 }
 
+/// Attitudes 65 ms late of a body that tumbles, and moments of inertia so far off that the gyroscopic moment over that time, as
+/// predicted, grows without bound: then there is neither an attitude nor a rate.
+#[test]
+fn rates_beyond_all_bounds() {
+    let mut config = config();
+    (config.translation.latency, config.rotation.latency) = (13, 13);
+    config.inertia = [0.005, 0.03, 0.25].map(Expected::about);
+    config.rotation.parameter_settle = 1e3;
+    let mut vehicle = VehicleEstimator::<13>::new(&config).unwrap();
+    let body = RigidBody { rates: [10.0, 5.0, 10.0], ..RigidBody::default() };
+    let mut flight = Flight::new(body, Course::HOVER, 0.005, 1);
+    let mut late = std::collections::VecDeque::from([Measured::default(); 13]);
+    let wrench = Wrench { force: [0.0, 0.0, 25.0], torque: [0.0; 3] };
+    let mut nothing = 0;
+    for tick in 0..400 {
+        late.push_back(flight.measure());
+        vehicle.update(&late.pop_front().unwrap(), &wrench);
+        let state = vehicle.state();
+        assert!(all_finite(&vehicle), "{tick}: {state:?}");
+        assert_eq!(state.attitude.is_none(), state.rates.is_none(), "{tick}");
+        nothing += u32::from(state.rates.is_none());
+        flight.step(&wrench);
+    }
+    println!("nothing handed out at {nothing} of 400 updates");
+    assert!((50..400).contains(&nothing));
+}
+
 /// A heading that jumps and stays there for ten samples: the rotation begins anew, with the moments of inertia that were
 /// known. Until then it is taken for an outlier.
 #[test]

@@ -107,6 +107,13 @@ impl BodyAngles {
         }
     }
 
+    /// Moves the origin of the angles: from now on they are larger by `by` (rad). The attitude stays.
+    pub(crate) fn translate(&mut self, by: &[f32; 3]) {
+        for (angle, by) in self.angles.iter_mut().zip(by) {
+            angle.add_folded(*by);
+        }
+    }
+
     /// R, body to world, by rows: the last attitude taken, and the turns given since.
     pub const fn attitude(&self) -> Option<[[f32; 3]; 3]> {
         self.attitude

@@ -42,6 +42,8 @@ pub struct GuardDesign {
     pub(super) sigmas2: f32,
     /// floor + a T/(eλ)
     pub(super) step: f32,
+    /// 2a T/λ
+    pub(super) drift: f32,
     /// a T²/2
     pub(super) fall: f32,
     /// λT
@@ -85,6 +87,7 @@ impl GuardDesign {
         Ok(Self {
             sigmas2: (config.sigmas * config.sigmas) as f32,
             step: (config.floor + config.acceleration * period / (core::f64::consts::E * lambda)) as f32,
+            drift: (2.0 * config.acceleration * period / lambda) as f32,
             fall: (0.5 * config.acceleration * period * period) as f32,
             lambda_t: (lambda * period) as f32,
             decay: (3.0 * lambda * period) as f32,

@@ -13,6 +13,8 @@ pub(super) struct Gate {
     pub(super) values: u16,
     /// Measurements not used since the last one that was.
     pub(super) gap: u16,
+    /// Of these, instants at which nothing was measured that could be judged.
+    pub(super) blind: u16,
     /// Improbable measurements in a row that agree with each other.
     pub(super) run: u16,
     /// How often the last measurement has come again.
@@ -57,10 +59,12 @@ impl Gate {
     pub fn judge(&mut self, y: f32, expected: Option<f32>, limit: f32, settled: bool, design: &GuardDesign) -> Verdict {
         let verdict = self.verdict(y, expected, limit, settled, design);
         if verdict.is_used() {
-            self.gap = 0;
+            (self.gap, self.blind) = (0, 0);
             self.begin_run();
-        } else {
+        } else if verdict == Verdict::Improbable {
             self.gap = self.gap.saturating_add(1);
+        } else {
+            self.miss();
         }
         verdict
     }
@@ -88,8 +92,9 @@ impl Gate {
         let noise = design.sigmas2 * (1.0 / Self::OF_NORMAL) * self.level;
         let gap = f32::from(self.gap);
         let stretch = 1.0 + design.lambda_t * gap;
-        // A large innovation is on its way back to zero.
-        let known = design.step + design.fall * gap * gap + design.decay * self.innovation.abs();
+        // The velocity may be off, and what it does was not seen. A large innovation is on its way back to zero.
+        let unseen = design.drift * f32::from(self.blind) + design.fall * gap * gap;
+        let known = design.step + unseen + design.decay * self.innovation.abs();
         let trusted = self.values >= Self::ENOUGH;
         // What was expected is no outlier: it may be the last one that was, and passed.
         let off = if innovation.abs() < step.abs() { innovation } else { step };
@@ -133,7 +138,7 @@ impl Gate {
 
     /// The observer starts anew: what was learned of the noise stays, and so does the age of the last measurement.
     pub fn restart(&mut self) {
-        *self = Self { level: self.level, values: self.values, gap: self.gap, ..Self::default() };
+        *self = Self { level: self.level, values: self.values, gap: self.gap, blind: self.blind, ..Self::default() };
     }
 
     /// Whether its level can have been learned.
@@ -144,6 +149,7 @@ impl Gate {
     /// Nothing was measured.
     pub fn miss(&mut self) {
         self.gap = self.gap.saturating_add(1);
+        self.blind = self.blind.saturating_add(1);
     }
 
     fn is_frozen(&mut self, y: f32, design: &GuardDesign) -> bool {

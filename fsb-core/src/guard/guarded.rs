@@ -180,6 +180,11 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         self.fresh(self.estimator.states_after(ahead, periods))
     }
 
+    /// As [`Estimator::translate`].
+    pub(crate) fn translate(&mut self, by: &[f32; N]) {
+        self.estimator.translate(by);
+    }
+
     pub(crate) fn shift_input(&mut self, axis: usize, by: [f32; 3], denominator: f32, doubt: f32) {
         self.estimator.shift_input(axis, by, denominator, doubt);
     }
@@ -202,8 +207,9 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
     }
 
     fn remember(&mut self, moments: &[InputMoments; N]) {
+        let limit = self.estimator.input_limit();
         for (last, given) in self.last.iter_mut().zip(moments) {
-            if given.j1.is_finite() && given.j2.is_finite() {
+            if given.j1.abs() <= limit && given.j2.abs() <= limit {
                 *last = *given;
             }
         }

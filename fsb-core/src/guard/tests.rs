@@ -7,7 +7,7 @@ use crate::tuning::Tuning;
 
 const LIMIT: f32 = 100.0;
 
-/// λ T = 0.1, T = 0.01 s: a T/(eλ) is a/2718 s², a T²/2 is a/20000 s².
+/// λ T = 0.1, T = 0.01 s: a T/(eλ) is a/2718 s², 2a T/λ is a/500 s², a T²/2 is a/20000 s².
 fn design(sigmas: f64, acceleration: f64, floor: f64) -> GuardDesign {
     let config = GuardConfig { sigmas, acceleration, floor, jump_after: 3, ..GuardConfig::default() };
     GuardDesign::new(&config, Tuning::from_lambda(10.0), 0.01).expect("valid")
@@ -57,15 +57,16 @@ fn noise_is_let_pass() {
     }
 }
 
-/// floor + a T/(eλ), and a T²/2 for the square of a gap's samples.
+/// floor + a T/(eλ), 2a T/λ for a gap's samples and a T²/2 for the square of them.
 #[test]
 fn unknown_accelerations_are_let_pass() {
     for (acceleration, floor) in [(0.0, 0.05), (30.0, 0.0), (30.0, 0.01)] {
         let design = design(8.0, acceleration, floor);
         let mut gate = Gate::expecting(Some(1e-16));
-        for gap in 0..20_u8 {
-            let (a, n) = (acceleration as f32, f32::from(gap));
-            bounded(&gate, floor as f32 + a * (0.001 / core::f32::consts::E) + 0.5 * a * 1e-4 * n * n, &design);
+        for missed in 0..20_u8 {
+            let (a, n) = (acceleration as f32, f32::from(missed));
+            let gap = 2.0 * a * 1e-3 * n + 0.5 * a * 1e-4 * n * n;
+            bounded(&gate, floor as f32 + a * (0.001 / core::f32::consts::E) + gap, &design);
             gate.miss();
         }
     }

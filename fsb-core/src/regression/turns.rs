@@ -6,7 +6,8 @@
 //! 4. k with what is left, and its status;
 //! 5. each axis's D and d for that k, and the observer's model.
 //!
-//! Columns dropped count as zero. An axis that is not excited beyond hover therefore says of k what gravity says, and does
+//! Columns dropped count as zero, but for d on an axis without a known drift: there a constant force is one against d, and says
+//! nothing of k. An axis that is not excited beyond hover therefore says of k what gravity says, and does
 //! not spoil it for the others.
 
 use super::axis::{Axis, Columns, Source};
@@ -59,7 +60,8 @@ impl Axis {
         let Identify { drag, disturbance } = self.own.identify;
         let asked = Columns { drag: drag && self.triangle.is_moving(), disturbance };
         let k = pooled.newest().value;
-        let information = self.triangle.keep(asked.disturbance, asked.drag, common.row_rate2).information();
+        // Beyond a constant, whether d is asked for or not.
+        let information = self.triangle.keep(true, asked.drag, common.row_rate2).information();
         let excitation2 = k * k * (information / self.triangle.constant());
         let stays = if self.used.count() > 0.0 { EXCITATION_STAYS } else { 1.0 };
         let excited = excitation2 >= stays * common.excitation2;
@@ -97,12 +99,13 @@ impl Axis {
             self.keep(kept, common);
             self.weigh(k.value, common);
         }
-        self.used = kept;
     }
 
     fn keep(&mut self, columns: Columns, common: &Common) {
         self.columns = columns;
-        self.reduced = self.triangle.keep(columns.disturbance, columns.drag, common.row_rate2);
+        // Where nothing constant is known to pull, a constant force is one against d, which may be there without being told.
+        let constant = columns.disturbance || (self.own.identify.disturbance && self.own.drift == 0.0);
+        self.reduced = self.triangle.keep(constant, columns.drag, common.row_rate2);
     }
 
     /// The rows taken in, as far as the window was open: the noise of ẑ2 grows faster with it than its signals do.
@@ -132,6 +135,8 @@ impl Axis {
 
     fn settle(&mut self, pooled: &Pooled, clock: &Clock, common: &Common) {
         let known = pooled.newest();
+        // With their values, measurements after they were chosen.
+        self.used = self.columns;
         (self.drag, self.disturbance) = self.terms(known);
         if !(is_slight(&self.drag, common) && is_gentle(&self.disturbance)) {
             // Another k than the one they were chosen with has thrown them off.

@@ -13,7 +13,8 @@
 //! in noise: r has little power where φ has most, so that its var κ, taken as that of white noise, is on the safe side.
 //!
 //! A change is one by more than `relative` and by more than `sigmas`, several instants in succession, and never where the input
-//! is small beside what it has been: there an unknown moment would be taken for a change of inertia.
+//! is small beside what it has been: there an unknown moment would be taken for a change of inertia. After a long gap all of it
+//! begins anew, as after a start.
 
 use super::config::ChangeRule;
 use crate::error::{ConfigError, finite, positive};
@@ -55,6 +56,8 @@ pub(super) struct Detector {
 impl Detector {
     /// φ² below this share of its mean says nothing.
     const LEAST: f32 = 0.1;
+    /// φ² that has grown to so many times its mean, nothing being measured, is what a gap makes of it.
+    const GAP: f32 = 100.0;
 
     /// `period` is that of the measurements (s), λ (1/s) the observer's.
     pub fn new(rule: &ChangeRule, lambda: f64, period: f64, pooled: bool) -> Result<Self, ConfigError> {
@@ -117,9 +120,12 @@ impl Detector {
             response.w += input.j1 - correction;
         }
         // The first one after a gap has another variance.
-        let sound = view.measured && self.measured;
+        let (sound, gap) = (view.measured && self.measured, !view.measured && !self.measured);
         self.measured = view.measured;
         if !sound {
+            if gap && self.has_outgrown(view) {
+                self.restart();
+            }
             return false;
         }
         self.instants = self.instants.saturating_add(1);
@@ -137,6 +143,20 @@ impl Detector {
         let [now, late] = &mut self.statistics;
         let streak = now.add(&terms, known, &limits).max(late.add(&terms, known, &limits));
         streak >= self.enough
+    }
+
+    /// Whether a gap, of some 3/λ, has let φ grow so far that its mean would be one of the gap from then on, and what comes
+    /// after it small beside it. The observer's start is forgotten by the time something is decided again.
+    fn has_outgrown(&self, view: &InnovationView<3>) -> bool {
+        let mut usual = self.usual.iter();
+        if self.pooled {
+            let square: f32 = self.responses.iter().map(|response| response.phi * response.phi).sum();
+            return usual.next().is_some_and(|usual| square > Self::GAP * usual);
+        }
+        let noises = self.responses.iter().zip(&view.noise_variances);
+        noises
+            .zip(usual)
+            .any(|((response, noise), usual)| noise.is_some() && response.phi * response.phi > Self::GAP * usual)
     }
 
     /// Of each parameter, the first one where all axes share it.

@@ -8,6 +8,9 @@ use crate::readout::ParameterRule;
 /// The rotation's turns come so many measurements after the translation's.
 const TURN: u32 = 4;
 
+/// The largest limit of an input.
+const LARGEST_INPUT: f64 = 1e6;
+
 /// x, y, z, and what they have in common.
 pub(super) fn translation(config: &VehicleConfig) -> Result<EstimatorConfig<3, 1>, ConfigError> {
     let gravity = finite("gravity", config.gravity)?;
@@ -30,11 +33,15 @@ pub(super) fn rotation(config: &VehicleConfig) -> Result<EstimatorConfig<3, 3>, 
     let [x, y, z] = config.inertia;
     let named = |expected: Expected| parameter(&expected, ["inertia.nominal", "inertia.min", "inertia.max"]);
     let [x, y, z] = [named(x)?, named(y)?, named(z)?];
+    let common = common(config.period, group);
+    // The gyroscopic moment comes on top of the torque, which has been checked, and is no matter of what actuators can do.
+    let sound = common.input_limit > 0.0 && common.input_limit <= LARGEST_INPUT;
     Ok(EstimatorConfig {
         turn: TURN,
         nominal: [x.nominal, y.nominal, z.nominal],
         rule: [x.rule(group), y.rule(group), z.rule(group)],
-        ..common(config.period, group)
+        input_limit: if sound { LARGEST_INPUT } else { common.input_limit },
+        ..common
     })
 }
 

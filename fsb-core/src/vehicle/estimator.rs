@@ -15,7 +15,7 @@ use crate::error::ConfigError;
 use crate::estimator::Learning;
 use crate::guard::{Guarded, Verdict};
 use crate::moments::{InputMoments, Substep};
-use crate::readout::Memory;
+use crate::readout::{Memory, Readout};
 
 /// Mass, moments of inertia and state of a vehicle whose position and attitude are measured.
 ///
@@ -53,11 +53,13 @@ pub struct VehicleEstimator<const D: usize> {
     pub(super) position_limit: f32,
     pub(super) force_limit: f32,
     pub(super) torque_limit: f32,
+    /// A body angle of larger magnitude is moved back by that (rad). What comes of it is exact, as it is within twice that.
+    pub(super) far: f32,
     pub(super) last: Wrench,
     /// Attitudes in succession that were too far away to be followed, and how many make a start anew.
     pub(super) too_far: u32,
     pub(super) enough: u32,
-    /// Where the sums do not fade.
+    /// Where the sums are those of least squares and do not fade.
     pub(super) retroactive: Option<Retroactive>,
     pub(super) translation_change: Option<Detector>,
     pub(super) rotation_change: Option<Detector>,
@@ -91,12 +93,15 @@ impl<const D: usize> VehicleEstimator<D> {
             position_limit: config.translation.measurement_limit as f32,
             force_limit: config.translation.input_limit as f32,
             torque_limit: config.rotation.input_limit as f32,
+            far: libm::fmin(64.0, 0.5 * config.rotation.measurement_limit) as f32,
             last: Wrench::default(),
             too_far: 0,
             enough: config.rotation.guard.jump_after,
-            retroactive: match config.rotation.memory {
-                Memory::Infinite => Some(Retroactive::new(Substep::new(config.rotation.substeps)?)),
-                Memory::Fading { .. } => None,
+            retroactive: match (config.rotation.memory, config.rotation.readout) {
+                (Memory::Infinite, Readout::LeastSquares) => {
+                    Some(Retroactive::new(Substep::new(config.rotation.substeps)?))
+                }
+                _ => None,
             },
             translation_change: detector(config, &config.translation, true)?,
             rotation_change: detector(config, &config.rotation, false)?,
@@ -205,6 +210,7 @@ impl<const D: usize> VehicleEstimator<D> {
         {
             self.angles.turn_by(&difference(&predicted, &self.angles.angles()));
         }
+        self.unwind();
     }
 
     /// The gyroscopic moment so far, with what is now known of the moments of inertia.

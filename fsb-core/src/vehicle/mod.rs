@@ -43,6 +43,7 @@
 //! | `delay` | inputs waiting for a measurement that comes late |
 //! | `stored` | what a snapshot holds |
 //! | `triple` | three numbers, one for each axis of a group |
+//! | `unwind` | body angles from a later origin |
 
 mod actuators;
 mod change;
@@ -61,6 +62,7 @@ mod stored;
 #[cfg(test)]
 mod tests;
 mod triple;
+mod unwind;
 
 pub use config::{ChangeRule, Expected, GroupConfig, VehicleConfig};
 pub use estimator::VehicleEstimator;

@@ -2,7 +2,7 @@
 
 use super::estimator::VehicleEstimator;
 use super::output::Group;
-use crate::estimator::Estimator;
+use crate::estimator::{Estimator, Learning};
 use crate::readout::ParameterStatus;
 
 impl<const D: usize> VehicleEstimator<D> {
@@ -70,8 +70,12 @@ impl<const D: usize> VehicleEstimator<D> {
     }
 }
 
-/// k of the parameters that are valid now, not held.
+/// k of the parameters that are valid now, not held. None while nothing is learned: they are to stay as they are, and in contact
+/// the motion says nothing about them.
 fn identified<const P: usize>(estimator: &Estimator<3, P>) -> [Option<f32>; P] {
+    if estimator.learning() != Learning::On {
+        return [None; P];
+    }
     let mut values = estimator.parameters().map(|k| k.map(|k| k.value));
     for (value, status) in values.iter_mut().zip(estimator.parameter_status()) {
         if status != ParameterStatus::Valid {

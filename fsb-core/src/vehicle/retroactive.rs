@@ -10,7 +10,8 @@
 //! itself moves to the newest γ: a fixed point, one step of it per step of the identifier. Exact for blocks of one; for longer ones w lags by a part of a block, which
 //! matters to the difference γ - γ₀ alone.
 //!
-//! For sums with infinite memory; sums that fade forget the first guess by themselves.
+//! For least squares with infinite memory. Sums that fade forget the first guess by themselves; those of the absolute ratio are
+//! not linear in ẑ0, and keep what a rough first guess did to them.
 
 use super::gyroscopic::differences_known;
 use crate::accumulator::Accumulator;

@@ -5,7 +5,7 @@ use super::gyroscopic::Gyroscopic;
 use super::output::VehicleState;
 use super::triple::{difference, positions, rates};
 use crate::attitude::rotation::{self, Matrix};
-use crate::estimator::AxisState;
+use crate::estimator::{AxisState, Learning};
 use crate::moments::InputMoments;
 
 /// The rotation on its way from the newest attitude to now.
@@ -36,11 +36,8 @@ impl<const D: usize> VehicleEstimator<D> {
             let (course, then) = self.actuators.follow(wrench, actual);
             actual = Some(then);
             let from = attitude;
-            if let Some(ahead) = &mut ahead {
-                let torque = self.actuators.torque(&course);
-                self.advance(ahead, torque);
-                attitude = Some(ahead.attitude);
-            }
+            ahead = ahead.and_then(|ahead| self.advance(ahead, self.actuators.torque(&course)));
+            attitude = ahead.as_ref().map(|ahead| ahead.attitude).or(attitude);
             if let (Some(from), Some(to)) = (from, attitude) {
                 extend(&mut force, &self.actuators.force(&course, &from, &to));
             }
@@ -68,19 +65,23 @@ impl<const D: usize> VehicleEstimator<D> {
         Some(Ahead { angles, rates, attitude })
     }
 
-    /// Over one control period.
-    fn advance(&self, ahead: &mut Ahead, mut torque: [InputMoments; 3]) {
-        let Some(k) = self.reciprocals() else { return };
-        Gyroscopic::add(&mut torque, &ahead.rates, &k, 0.5 * self.period);
+    /// Over one control period. `None` where that turns by more than can be followed: with moments of inertia that are far off
+    /// the gyroscopic moment may let the rates grow beyond all bounds.
+    fn advance(&self, mut ahead: Ahead, mut torque: [InputMoments; 3]) -> Option<Ahead> {
         let before = ahead.angles;
+        let mut k = [0.0; 3];
+        // In contact nothing that acts is known.
+        if self.rotation.learning() != Learning::Contact {
+            k = self.reciprocals()?;
+            Gyroscopic::add(&mut torque, &ahead.rates, &k, 0.5 * self.period);
+        }
         for (((angle, rate), input), k) in ahead.angles.iter_mut().zip(&mut ahead.rates).zip(&torque).zip(k) {
             let gain = k * self.period;
             *angle += self.period * (*rate + gain * input.j2);
             *rate += gain * input.j1;
         }
-        if let Some(attitude) = turned(&ahead.attitude, &difference(&ahead.angles, &before)) {
-            ahead.attitude = attitude;
-        }
+        ahead.attitude = turned(&ahead.attitude, &difference(&ahead.angles, &before))?;
+        Some(ahead)
     }
 }
 
