@@ -144,17 +144,18 @@ impl Axis {
         parameter.step_coarsely(covariance.stride * down * z0, noise, covariance.forgetting);
     }
 
-    /// Adds this axis's share of what its parameter's uncertainty is made of, where it takes part.
+    /// Adds this axis's share of what its parameter's uncertainty is made of. What an axis that no longer takes part has left
+    /// in the sums stays as noisy as it was (a little more than that where memory fades); of the model it tells nothing.
     #[inline(always)]
     pub fn add_misfit(&self, to: &mut Misfit, per_stride: f32) {
+        let sum = self.noise_sum.value();
+        to.variance += self.noise.variance() * per_stride * sum;
         if !self.present {
             return;
         }
         let (unexplained, signal) = self.noise.misfit();
-        let sum = self.noise_sum.value();
         // While the noise level is not known the variance is not, unless nothing has been added yet.
         to.known &= sum == 0.0 || self.noise.is_known();
-        to.variance += self.noise.variance() * per_stride * sum;
         to.unexplained += unexplained;
         to.signal += signal;
     }
