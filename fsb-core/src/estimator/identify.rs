@@ -38,9 +38,27 @@ impl Axis {
             self.cascade.keep_normal();
         }
         // The window is zero in the first two blocks.
-        if self.tells(common) && clock.blocks > 2 {
+        if self.missed != 0 {
+            self.read_out_in_part(z2, coarse, clock, parameter, common);
+        } else if clock.blocks > 2 {
             self.read_out(z2, coarse, clock, parameter, common);
         }
+    }
+
+    /// A block in which measurements were missed.
+    #[inline(never)]
+    fn read_out_in_part(
+        &mut self,
+        z2: f32,
+        coarse: bool,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        if u32::from(self.missed) < common.block_length && clock.blocks > 2 {
+            self.read_out_generally(z2, coarse, clock, parameter, common);
+        }
+        self.missed = 0;
     }
 
     /// The sample just taken, a block by itself, through the cascade into the parameter's sums. Sums are not folded.
@@ -126,12 +144,14 @@ impl Axis {
         // With the quotient of this very moment: the one read last may be from before the take-off.
         let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
         let residual = z2 - parameter.ratio.quotient() * z0;
-        self.noise.add(
-            step * step * common.innovation_to_mean,
-            residual * residual * to_mean,
-            z2 * z2 * to_mean,
-            covariance.noise_memory,
-        );
+        if self.gap == 0 || self.noise.is_known() {
+            self.noise.add(
+                self.fine(step * step, common),
+                residual * residual * to_mean,
+                z2 * z2 * to_mean,
+                covariance.noise_memory,
+            );
+        }
         let (up, down) = weight(common.readout, z2, z0);
         let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
@@ -142,6 +162,23 @@ impl Axis {
             Readout::AbsoluteRatio => 0.0,
         };
         parameter.step_coarsely(covariance.stride * down * z0, noise, covariance.forgetting);
+    }
+
+    /// The variance of a block's mean from the squared step of the innovation. A block has the noise of as many measurements as
+    /// came; and a prediction in place of a measurement is off by nothing, which tells nothing.
+    #[inline(always)]
+    fn fine(&self, square: f32, common: &Common) -> f32 {
+        if self.missed == 0 { square * common.innovation_to_mean } else { self.fine_in_part(square, common) }
+    }
+
+    #[inline(never)]
+    fn fine_in_part(&self, square: f32, common: &Common) -> f32 {
+        if self.gap == 0 {
+            let came = common.block_length.saturating_sub(u32::from(self.missed)).max(1);
+            square * common.innovation_to_mean * (common.block.length / came as f32)
+        } else {
+            self.noise.measurement_variance()
+        }
     }
 
     /// Adds this axis's share of what its parameter's uncertainty is made of. What an axis that no longer takes part has left

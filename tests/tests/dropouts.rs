@@ -1,0 +1,61 @@
+//! What is said of the noise while measurements are missing at random.
+//!
+//! A prediction in place of a measurement has no innovation: taken for a sample of the noise it would say that there is none.
+
+use fsb_core::{Estimator, EstimatorConfig};
+use fsb_sim_host::plant::HeldInputAxis;
+use rand::{RngExt, SeedableRng};
+use rand_distr::StandardNormal;
+use rand_pcg::Pcg64Mcg;
+
+const PERIOD: f64 = 1e-3;
+const SIGMA: f64 = 1e-3;
+const FLIGHTS: u64 = 12;
+
+/// What a flight is worth: the squared error of the velocity over the reported variance, mean from 15 s on, and the largest error
+/// of a valid k̂ in its own standard deviations.
+fn flight(block: u32, missing: f64, seed: u64) -> (f64, f64) {
+    let config = EstimatorConfig { block, nominal: [Some(2.0)], ..EstimatorConfig::<1, 1>::new(PERIOD) };
+    let mut estimator = Estimator::new(&config).expect("valid");
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut axis = HeldInputAxis { position: 0.3, velocity: 0.0, k: 2.0, drift: 0.0 };
+    let (mut squares, mut count, mut worst) = (0.0, 0.0, 0.0_f64);
+    for n in 0..20_000_u32 {
+        let noise: f64 = random.sample(StandardNormal);
+        let came = n < 100 || !random.random_bool(missing);
+        estimator.measure(&[came.then_some((axis.position + SIGMA * noise) as f32)]).expect("in step");
+        if n >= 15_000 && n % 100 == 0 {
+            let (state, sd) =
+                (estimator.states()[0].expect("nominal"), estimator.state_sd()[0].expect("noise is learned"));
+            squares += ((f64::from(state.velocity) - axis.velocity) / f64::from(sd.velocity)).powi(2);
+            count += 1.0;
+        }
+        if let Some(found) = estimator.parameters()[0] {
+            worst = worst.max(((f64::from(found.value) - 2.0) / f64::from(found.sd())).abs());
+        }
+        let force = (2.0 * (2.0 * PERIOD * f64::from(n)).sin() - axis.velocity - axis.position) as f32;
+        estimator.apply(&[force]);
+        axis.step(f64::from(force), PERIOD);
+    }
+    (squares / count, worst)
+}
+
+/// The velocity's standard deviation is at least what it is worth, to 25 %, and three times that at most; and no k̂ is ever off
+/// by more than 5.5 of its own, 12 where nine measurements of ten are missing and the first few that tell the noise come late.
+#[test]
+fn the_noise_is_learned_from_what_came() {
+    for (block, missing) in [(1, 0.5), (10, 0.5), (40, 0.5), (10, 0.9), (40, 0.9)] {
+        let (mut squares, mut worst) = (0.0, 0.0_f64);
+        for seed in 0..FLIGHTS {
+            let (square, off) = flight(block, missing, seed);
+            squares += square / FLIGHTS as f64;
+            worst = worst.max(off.abs());
+        }
+        let ratio = f64::sqrt(squares);
+        let most = if missing > 0.5 { 12.0 } else { 5.5 };
+        println!(
+            "blocks of {block}, {missing} missing: velocity {ratio:.2} of what is reported, k within {worst:.1} sd"
+        );
+        assert!((0.33..1.25).contains(&ratio) && worst < most, "block {block}, {missing} missing: {ratio}, {worst}");
+    }
+}
