@@ -186,6 +186,7 @@ impl Axis {
     #[inline(always)]
     pub fn add_misfit(&self, to: &mut Misfit, per_stride: f32) {
         let sum = self.noise_sum.value();
+        to.gain += sum;
         to.variance += self.noise.variance() * per_stride * sum;
         if !self.present {
             return;
@@ -206,15 +207,26 @@ impl Axis {
 
 /// What the axes that share a parameter contribute to its uncertainty.
 pub(super) struct Misfit {
-    /// Whether the variance is known.
+    /// Whether the noise is known.
     pub known: bool,
+    /// var a, the variance of the numerator of k̂ for unit noise of coarse steps.
+    gain: f32,
     /// σ² var a, the variance of the numerator of k̂.
-    pub variance: f32,
+    variance: f32,
     /// What the model leaves unexplained beyond noise, and what there is to explain.
     pub unexplained: f32,
     pub signal: f32,
 }
 
 impl Misfit {
-    pub const NONE: Self = Self { known: true, variance: 0.0, unexplained: 0.0, signal: 0.0 };
+    pub const NONE: Self = Self { known: true, gain: 0.0, variance: 0.0, unexplained: 0.0, signal: 0.0 };
+
+    /// A gain below this is made of numbers that are too small for f32: of a window that has hardly opened yet.
+    const LEAST: f32 = 1e-34;
+
+    /// The variance of the numerator, where it is known.
+    #[inline(always)]
+    pub fn known_variance(&self) -> Option<f32> {
+        if self.known && self.gain >= Self::LEAST { Some(self.variance) } else { None }
+    }
 }
