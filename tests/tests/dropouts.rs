@@ -59,3 +59,36 @@ fn the_noise_is_learned_from_what_came() {
         assert!((0.33..1.25).contains(&ratio) && worst < most, "block {block}, {missing} missing: {ratio}, {worst}");
     }
 }
+
+/// The first measurement says nothing of the velocity. Where the next ones do not come no state is handed out until those that
+/// came later have outweighed the velocity that was taken for zero: to 4 % of it. At once where nothing is missed.
+#[test]
+fn no_velocity_from_one_measurement() {
+    for (period, block) in [(0.01, 1), (1e-3, 1), (1e-3, 10)] {
+        for missing in [0, 1, 2, 5, 20, 60] {
+            let config = EstimatorConfig {
+                period,
+                block,
+                nominal: [Some(2.0)],
+                parameter_settle: 100.0,
+                ..EstimatorConfig::<1, 1>::new(period)
+            };
+            let mut estimator = Estimator::new(&config).expect("valid");
+            let mut axis = HeldInputAxis { position: 0.3, velocity: 3.0, k: 2.0, drift: 0.0 };
+            let (mut since, mut worst) = (None, 0.0_f64);
+            for n in 0..2000_u32 {
+                let came = n == 0 || n > missing;
+                estimator.measure(&[came.then_some(axis.position as f32)]).expect("in step");
+                if let Some(state) = estimator.states()[0] {
+                    since = since.or(Some(n));
+                    worst = worst.max((f64::from(state.velocity) / axis.velocity - 1.0).abs());
+                }
+                estimator.apply(&[0.1]);
+                axis.step(0.1, period);
+            }
+            println!("T {period}, {missing} missing: from {since:?} on within {worst:.1e}");
+            let expected = if missing == 0 { 1 } else { (10 * (missing + 1)).min(missing + (0.8 / period) as u32) };
+            assert!(worst < 0.04 && since == Some(expected), "T {period}, {missing}: {worst} from {since:?} on");
+        }
+    }
+}

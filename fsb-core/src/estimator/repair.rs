@@ -45,6 +45,10 @@ impl Parts<'_> {
             }
             axis.missed = axis.missed.saturating_add(1);
             axis.gap = axis.gap.saturating_add(1);
+            if axis.measured && u32::from(axis.gap) == progress.observer.count {
+                axis.settled_at = common.settled_after(progress.observer.count);
+                axis.decide_use();
+            }
             let predicted = axis.observer.predict(axis.moments, &axis.model, m1);
             if axis.measured && predicted.abs() <= common.position_limit {
                 *y = predicted;
