@@ -70,6 +70,29 @@ fn a_noise_gain_by_hand() {
     assert!((f64::from(gain.velocity(&design)) / velocity - 1.0).abs() < 1e-3);
 }
 
+/// The same for any tuning that is admitted: to 4 % of a variance, where the window opens before the filter forgets to 8 %.
+#[test]
+fn noise_gains_of_all_tunings() {
+    for lambda in [1e-5, 3e-4, 1e-2, 0.3] {
+        for q in [3e-6, 1e-4, 1e-3, 8e-3, 0.2, 1.0] {
+            let tuning = Tuning { lambda, q };
+            let design = ObserverDesign::new(tuning, 1.0).unwrap();
+            let (mut window, mut gain) = (Window::START, NoiseGain::FIRST);
+            for n in 1..=20_000_u32 {
+                design.step(&mut window);
+                gain.correct(&Gains::at(&window, &design));
+                if [3, 96, 97, 150, 400, 1100, 3000, 8000, 20_000].contains(&n) {
+                    let quick = NoiseGain::at_sample(n, tuning, 1.0);
+                    let off = (quick.position() / gain.position() - 1.0).abs();
+                    let off = off.max((quick.velocity(&design) / gain.velocity(&design) - 1.0).abs());
+                    let most = if q > lambda { 0.08 } else { 0.04 };
+                    assert!(off < most, "λT {lambda}, qT {q}, n {n}: off by {off}, {quick:?} for {gain:?}");
+                }
+            }
+        }
+    }
+}
+
 /// ẑ2 - c ẑu = k ẑ0 from the third sample on, and their quotient.
 #[test]
 fn an_identifier_by_hand() {

@@ -91,3 +91,33 @@ fn from_the_start() {
 fn after_a_re_initialisation() {
     hold_first_values_to_their_word(true);
 }
+
+/// The same where the filter is as slow as admitted, and the window opens long before it fills: of the noise so little has come
+/// through at first that f32 has no numbers for its square.
+#[test]
+fn of_the_slowest_filters() {
+    let mut found = 0;
+    for (period, lambda, q) in [
+        (0.01, 2e-4, 0.5),
+        (0.01, 6e-4, 25.0),
+        (2e-3, 2e-3, 1.0),
+        (2e-3, 2e-3, 100.0),
+        (1e-3, 0.01, 100.0),
+        (1e-3, 2e-3, 2.0),
+    ] {
+        for noise_sd in [None, Some(SIGMA)] {
+            let identifier = Tuning { lambda, q };
+            let config = EstimatorConfig { identifier, noise_sd, ..EstimatorConfig::new(period) };
+            for seed in 0..RUNS {
+                let Some((off, at)) = first(&config, false, seed) else { continue };
+                found += 1;
+                assert!(
+                    off.abs() < 5.0,
+                    "T {period}, λ {lambda}, q {q}, noise {noise_sd:?}, seed {seed}: {off} sd after {at} s"
+                );
+            }
+        }
+    }
+    println!("{found} runs had a valid parameter");
+    assert!(found > 6 * RUNS);
+}

@@ -257,7 +257,7 @@ impl Parts<'_> {
             } else if let Some(axis) = axes.get(index) {
                 axis.add_misfit(&mut sum, per_stride);
             }
-            parameter.read_variance(sum.known.then_some(sum.variance), common.identifier.scale2());
+            parameter.read_variance(sum.known_variance(), common.identifier.scale2());
             parameter.compare(sum.unexplained, common.max_misfit * sum.signal);
         }
         let Some(axis) = axes.get_mut(index) else { return };

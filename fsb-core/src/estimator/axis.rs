@@ -11,7 +11,8 @@ use crate::readout::{NoiseCross, NoiseLevel, ParameterState};
 /// What predicts this axis at present.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Source {
-    /// Nothing credible: constant velocity.
+    /// Nothing credible: constant velocity; a measurement missed for less than 1/λ is taken to be off from it as the
+    /// last one was.
     #[default]
     Nothing,
     /// The newest quotient, not valid yet: good enough to stand in for a missed sample, not handed out.

@@ -262,4 +262,10 @@ impl Common {
         self.observer_tuning = config.observer;
         self.measurement_period = period.get();
     }
+    /// When the state is known of an axis of which nothing has come since the first measurement, `count` instants ago. The
+    /// velocity taken for zero weighs 3 (count/n)² of itself at instant n, until the observer has forgotten it.
+    pub fn settled_after(&self, count: u32) -> u32 {
+        let outweighed = count.saturating_add(1).saturating_mul(10);
+        outweighed.min(count.saturating_add(self.late_settle)).max(self.state_settle)
+    }
 }

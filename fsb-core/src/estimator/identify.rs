@@ -38,9 +38,27 @@ impl Axis {
             self.cascade.keep_normal();
         }
         // The window is zero in the first two blocks.
-        if self.tells(common) && clock.blocks > 2 {
+        if self.missed != 0 {
+            self.read_out_in_part(z2, coarse, clock, parameter, common);
+        } else if clock.blocks > 2 {
             self.read_out(z2, coarse, clock, parameter, common);
         }
+    }
+
+    /// A block in which measurements were missed.
+    #[inline(never)]
+    fn read_out_in_part(
+        &mut self,
+        z2: f32,
+        coarse: bool,
+        clock: &IdentifierClock,
+        parameter: &mut ParameterState,
+        common: &Common,
+    ) {
+        if u32::from(self.missed) < common.block_length && clock.blocks > 2 {
+            self.read_out_generally(z2, coarse, clock, parameter, common);
+        }
+        self.missed = 0;
     }
 
     /// The sample just taken, a block by itself, through the cascade into the parameter's sums. Sums are not folded.
@@ -126,12 +144,14 @@ impl Axis {
         // With the quotient of this very moment: the one read last may be from before the take-off.
         let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
         let residual = z2 - parameter.ratio.quotient() * z0;
-        self.noise.add(
-            step * step * common.innovation_to_mean,
-            residual * residual * to_mean,
-            z2 * z2 * to_mean,
-            covariance.noise_memory,
-        );
+        if self.gap == 0 || self.noise.is_known() {
+            self.noise.add(
+                self.fine(step * step, common),
+                residual * residual * to_mean,
+                z2 * z2 * to_mean,
+                covariance.noise_memory,
+            );
+        }
         let (up, down) = weight(common.readout, z2, z0);
         let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
@@ -144,17 +164,36 @@ impl Axis {
         parameter.step_coarsely(covariance.stride * down * z0, noise, covariance.forgetting);
     }
 
-    /// Adds this axis's share of what its parameter's uncertainty is made of, where it takes part.
+    /// The variance of a block's mean from the squared step of the innovation. A block has the noise of as many measurements as
+    /// came; and a prediction in place of a measurement is off by nothing, which tells nothing.
+    #[inline(always)]
+    fn fine(&self, square: f32, common: &Common) -> f32 {
+        if self.missed == 0 { square * common.innovation_to_mean } else { self.fine_in_part(square, common) }
+    }
+
+    #[inline(never)]
+    fn fine_in_part(&self, square: f32, common: &Common) -> f32 {
+        if self.gap == 0 {
+            let came = common.block_length.saturating_sub(u32::from(self.missed)).max(1);
+            square * common.innovation_to_mean * (common.block.length / came as f32)
+        } else {
+            self.noise.measurement_variance()
+        }
+    }
+
+    /// Adds this axis's share of what its parameter's uncertainty is made of. What an axis that no longer takes part has left
+    /// in the sums stays as noisy as it was (a little more than that where memory fades); of the model it tells nothing.
     #[inline(always)]
     pub fn add_misfit(&self, to: &mut Misfit, per_stride: f32) {
+        let sum = self.noise_sum.value();
+        to.gain += sum;
+        to.variance += self.noise.variance() * per_stride * sum;
         if !self.present {
             return;
         }
         let (unexplained, signal) = self.noise.misfit();
-        let sum = self.noise_sum.value();
         // While the noise level is not known the variance is not, unless nothing has been added yet.
         to.known &= sum == 0.0 || self.noise.is_known();
-        to.variance += self.noise.variance() * per_stride * sum;
         to.unexplained += unexplained;
         to.signal += signal;
     }
@@ -168,15 +207,26 @@ impl Axis {
 
 /// What the axes that share a parameter contribute to its uncertainty.
 pub(super) struct Misfit {
-    /// Whether the variance is known.
+    /// Whether the noise is known.
     pub known: bool,
+    /// var a, the variance of the numerator of k̂ for unit noise of coarse steps.
+    gain: f32,
     /// σ² var a, the variance of the numerator of k̂.
-    pub variance: f32,
+    variance: f32,
     /// What the model leaves unexplained beyond noise, and what there is to explain.
     pub unexplained: f32,
     pub signal: f32,
 }
 
 impl Misfit {
-    pub const NONE: Self = Self { known: true, variance: 0.0, unexplained: 0.0, signal: 0.0 };
+    pub const NONE: Self = Self { known: true, gain: 0.0, variance: 0.0, unexplained: 0.0, signal: 0.0 };
+
+    /// A gain below this is made of numbers that are too small for f32: of a window that has hardly opened yet.
+    const LEAST: f32 = 1e-34;
+
+    /// The variance of the numerator, where it is known.
+    #[inline(always)]
+    pub fn known_variance(&self) -> Option<f32> {
+        if self.known && self.gain >= Self::LEAST { Some(self.variance) } else { None }
+    }
 }

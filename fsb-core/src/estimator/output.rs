@@ -20,7 +20,8 @@ pub struct AxisState {
 pub enum StateStatus {
     /// This axis has not been measured yet.
     NotMeasured,
-    /// Less than the configured time has passed since the first measurement.
+    /// Less than the configured time has passed since the first measurement, or too few measurements came since to tell the
+    /// velocity.
     Settling,
     /// Not measured for longer than is bridged by prediction ([`Guarded`](crate::guard::Guarded)).
     Stale,

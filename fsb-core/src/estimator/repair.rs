@@ -49,7 +49,18 @@ impl Parts<'_> {
             }
             axis.missed = axis.missed.saturating_add(1);
             axis.gap = axis.gap.saturating_add(1);
-            let predicted = axis.observer.predict(axis.moments, &axis.model, m1);
+            if axis.measured && u32::from(axis.gap) == progress.observer.count {
+                axis.settled_at = common.settled_after(progress.observer.count);
+                axis.decide_use();
+            }
+            let mut predicted = axis.observer.predict(axis.moments, &axis.model, m1);
+            // With no parameter the innovation is what the input does, and goes on for a time of 1/λ. Without it the predictions
+            // would say that the input does nothing, and k̂ would be taken in by them.
+            let gap = f32::from(axis.gap);
+            let short = gap * gap * progress.observer.gains.t_l2() <= 1.0;
+            if short && matches!(axis.source, Source::Nothing | Source::Provisional) {
+                predicted += axis.observer.innovation();
+            }
             if axis.measured && predicted.abs() <= common.position_limit {
                 *y = predicted;
             } else {

@@ -55,30 +55,47 @@ impl NoiseGain {
     }
 
     /// Steps of [`at_sample`](Self::at_sample).
-    const STEPS: u32 = 96;
+    const STEPS: f64 = 96.0;
 
     /// At sample `n` of an observer with `tuning` at `period` (s), every sample measured.
     ///
     /// Exact up to n = 96. Beyond, the last 8/λ are gone through in 96 steps with means of the samples in place of the
-    /// samples, which is good to 3 % (of a variance). Uses an exponential: for reports, not for the tick.
+    /// samples, which is good to 4 % (of a variance). With q > λ it is the first 8/q, and then the last 24/λ of the time since
+    /// in 288 steps: what an open window leaves of the first samples decays with λ alone; good to 8 %. Uses an exponential:
+    /// for reports, not for the tick.
     pub fn at_sample(n: u32, tuning: Tuning, period: f64) -> Self {
-        let samples = if n <= Self::STEPS {
-            1.0
-        } else {
-            libm::fmin(f64::from(n) / f64::from(Self::STEPS), 8.0 / (tuning.lambda * period * f64::from(Self::STEPS)))
-        };
-        let step = libm::fmax(samples, 1.0) * period;
-        let design = ObserverDesign::from_decay(&tuning.decay(Wide::new(step)));
-        let steps = n.min(Self::STEPS);
-        let begin = f64::from(n) * period - f64::from(steps) * step;
+        let n = f64::from(n);
+        let within = |rate: f64| libm::fmin(n, libm::fmax(8.0 / (rate * period), Self::STEPS));
+        if tuning.q <= tuning.lambda || n <= Self::STEPS {
+            return Self::gone_through(None, n, within(tuning.lambda), Self::STEPS, tuning, period);
+        }
+        let open = within(tuning.q);
+        let opened = Self::gone_through(None, open, open, Self::STEPS, tuning, period);
+        let since = libm::fmin(n - open, 3.0 * within(tuning.lambda));
+        Self::gone_through(Some(opened), n, since, 3.0 * Self::STEPS, tuning, period)
+    }
+
+    /// At sample `n`, `from` what it was so many `samples` before, in so many `steps` at most.
+    #[inline(never)]
+    fn gone_through(from: Option<Self>, n: f64, samples: f64, steps: f64, tuning: Tuning, period: f64) -> Self {
+        let mean = libm::fmax(samples / steps, 1.0);
+        let step = mean * period;
+        // A window that opens within a step is as good as open.
+        let q = libm::fmin(tuning.q, 1.0 / step);
+        let design = ObserverDesign::from_decay(&Tuning { q, ..tuning }.decay(Wide::new(step)));
+        let begin = (n - samples) * period;
         // Begins at the first sample, or so long ago that it does not matter where.
-        let mut window = if begin <= step { Window::START } else { Window::after(tuning.q * begin) };
-        let mut gain = Self::FIRST;
-        for _ in 0..steps {
+        let mut window = if begin <= step && from.is_none() { Window::START } else { Window::after(tuning.q * begin) };
+        let mut gain = from.map_or(Self::FIRST, |gain| gain.of_means(mean as f32));
+        for _ in 0..libm::round(samples / mean) as u32 {
             window.step(&design.window);
             gain.correct(&Gains::at(&window, &design));
         }
-        let per_mean = (period / step) as f32;
-        Self { yy: gain.yy * per_mean, yv: gain.yv * per_mean * per_mean, vv: gain.vv * per_mean * per_mean * per_mean }
+        gain.of_means((period / step) as f32)
+    }
+
+    /// The same in terms of means over so many samples: of their variance, and of the time from one to the next.
+    fn of_means(self, samples: f32) -> Self {
+        Self { yy: self.yy * samples, yv: self.yv * samples * samples, vv: self.vv * samples * samples * samples }
     }
 }
