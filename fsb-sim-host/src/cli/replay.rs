@@ -133,12 +133,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let Some(directory) = &args.out {
         let files = page::files(&result, &recording, &options, args.how_made(&options))?;
         for path in write_files(directory, &files)? {
-            eprintln!("wrote {}", path.display());
+            tell!("wrote {}", path.display());
         }
     }
     remarks.extend(told(&result, &recording));
     for line in remarks {
-        eprintln!("fsb: {line}");
+        tell!("fsb: {line}");
     }
     let tell_lag = recording.at_own_stamps || args.identify.is_some() || args.source.asks_for_lag();
     let mut summary = Summary::of(&result, &recording, options.gravity, tell_lag);
