@@ -248,6 +248,10 @@ fn bad_input_is_named_and_nothing_is_written() {
         assert_eq!(output.status.code(), Some(2), "{stderr}");
         assert!(output.stdout.is_empty() && !directory.path().join("out").exists());
     }
+    let directory = with_files(&motion, &input);
+    fs::write(directory.path().join("names.toml"), "[sensor]\nx = \"x\"\n").unwrap();
+    let output = fsb(directory.path(), &[&PAIR[..], &["--columns", "names.toml"]].concat());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("names.toml: sensor: found a value of type table"));
     let (output, _) = replay(&motion, &input, &["--identify", "drag"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("k is always identified"));
     assert_eq!(output.status.code(), Some(2));
