@@ -43,11 +43,11 @@ pub struct fsb_tuning_t {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_rule_t {
-    /// The smallest k that can be right; positive.
+    /// The smallest k that can be right. 1e-15..1e15.
     pub min: f64,
-    /// The largest k that can be right.
+    /// The largest k that can be right; above the smallest, up to 1e15.
     pub max: f64,
-    /// The largest sd(k)/k at which k becomes valid; it stays valid up to twice that.
+    /// The largest sd(k)/k at which k becomes valid; it stays valid up to twice that. 1e-15..1e6.
     pub max_relative_sd: f64,
 }
 
