@@ -266,11 +266,11 @@ typedef struct fsb_tuning_t {
 
 // When a parameter counts as valid.
 typedef struct fsb_rule_t {
-  // The smallest k that can be right; positive.
+  // The smallest k that can be right. 1e-15..1e15.
   double min;
-  // The largest k that can be right.
+  // The largest k that can be right; above the smallest, up to 1e15.
   double max;
-  // The largest sd(k)/k at which k becomes valid; it stays valid up to twice that.
+  // The largest sd(k)/k at which k becomes valid; it stays valid up to twice that. 1e-15..1e6.
   double max_relative_sd;
 } fsb_rule_t;
 
@@ -278,9 +278,9 @@ typedef struct fsb_rule_t {
 typedef struct fsb_axis_config_t {
   // Control period [s]: the time from one call of apply to the next. 1e-6..1e3.
   double period;
-  // Control periods from one measurement to the next, at least 1.
+  // Control periods from one measurement to the next, 1..65535.
   uint32_t substeps;
-  // Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
+  // Measurements per step of the identifier, 1..65535. More where the measurement rate is high: cheaper,
   // and no less accurate.
   uint32_t block;
   // Measurements by which the turns of this estimator come later, so that several on one processor do not do their
@@ -294,14 +294,14 @@ typedef struct fsb_axis_config_t {
   struct fsb_tuning_t observer;
   // Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
-  // Time constant [s] with which the identifier forgets; INFINITY: never.
+  // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
   // The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
   // is contradicted; above 0, up to 1. NaN: not asked.
   double max_misfit;
-  // k is not valid earlier than this after a reset [s].
+  // k is not valid earlier than this after a reset [s]. 0 to 1e9 measurements.
   double parameter_settle;
-  // States are not valid earlier than this after the first measurement [s].
+  // States are not valid earlier than this after the first measurement [s]. 0 to 1e9 measurements.
   double state_settle;
   // A measurement of larger magnitude is rejected [m or rad]. Up to 1e6.
   double position_limit;
@@ -395,9 +395,9 @@ typedef struct fsb_diagnostics_t {
 typedef struct fsb_rotation_config_t {
   // Control period [s]: the time from one call of apply to the next. 1e-6..1e3.
   double period;
-  // Control periods from one measurement to the next, at least 1.
+  // Control periods from one measurement to the next, 1..65535.
   uint32_t substeps;
-  // Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
+  // Measurements per step of the identifier, 1..65535. More where the measurement rate is high: cheaper,
   // and no less accurate.
   uint32_t block;
   // Measurements by which the turns of this estimator come later, so that several on one processor do not do their
@@ -411,14 +411,14 @@ typedef struct fsb_rotation_config_t {
   struct fsb_tuning_t observer;
   // Standard deviation of a measurement [rad] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
-  // Time constant [s] with which the identifier forgets; INFINITY: never.
+  // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
   // The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
   // is contradicted; above 0, up to 1. NaN: not asked.
   double max_misfit;
-  // k is not valid earlier than this after a reset [s].
+  // k is not valid earlier than this after a reset [s]. 0 to 1e9 measurements.
   double parameter_settle;
-  // States are not valid earlier than this after the first measurement [s].
+  // States are not valid earlier than this after the first measurement [s]. 0 to 1e9 measurements.
   double state_settle;
   // A measurement of larger magnitude is rejected [rad]. Up to 1e6.
   double position_limit;
@@ -442,15 +442,15 @@ typedef struct fsb_rotation_t {
 
 // Gains and limits of an axis's controller. Start from fsb_tracking_config_default.
 typedef struct fsb_tracking_config_t {
-  // Gain of the position error [1/s^2]; positive.
+  // Gain of the position error [1/s^2]. 1e-15..1e15.
   double kp;
-  // Gain of the velocity error [1/s]; positive.
+  // Gain of the velocity error [1/s]. 1e-15..1e15.
   double kd;
-  // Known drift of the axis [m/s^2 or rad/s^2], as in the estimator; the input makes up for it.
+  // Known drift of the axis [m/s^2 or rad/s^2], as in the estimator; the input makes up for it. Up to 1e6.
   double drift;
-  // The smallest k by which the controller divides; positive.
+  // The smallest k by which the controller divides. 1e-15..1e15.
   double k_min;
-  // The largest k by which the controller divides.
+  // The largest k by which the controller divides; not below the smallest, up to 1e15.
   double k_max;
 } fsb_tracking_config_t;
 
@@ -474,9 +474,9 @@ typedef struct fsb_reference_t {
 typedef struct fsb_translation_config_t {
   // Control period [s]: the time from one call of apply to the next. 1e-6..1e3.
   double period;
-  // Control periods from one measurement to the next, at least 1.
+  // Control periods from one measurement to the next, 1..65535.
   uint32_t substeps;
-  // Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
+  // Measurements per step of the identifier, 1..65535. More where the measurement rate is high: cheaper,
   // and no less accurate.
   uint32_t block;
   // Measurements by which the turns of this estimator come later, so that several on one processor do not do their
@@ -490,14 +490,14 @@ typedef struct fsb_translation_config_t {
   struct fsb_tuning_t observer;
   // Standard deviation of a measurement [m] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
-  // Time constant [s] with which the identifier forgets; INFINITY: never.
+  // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
   // The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
   // is contradicted; above 0, up to 1. NaN: not asked.
   double max_misfit;
-  // k is not valid earlier than this after a reset [s].
+  // k is not valid earlier than this after a reset [s]. 0 to 1e9 measurements.
   double parameter_settle;
-  // States are not valid earlier than this after the first measurement [s].
+  // States are not valid earlier than this after the first measurement [s]. 0 to 1e9 measurements.
   double state_settle;
   // A measurement of larger magnitude is rejected [m]. Up to 1e6.
   double position_limit;
@@ -538,7 +538,7 @@ typedef struct fsb_guard_t {
   // Steps up to this always pass [m or rad]: a few quanta of the sensor. 0..1e6.
   double floor;
   // Gaps up to this are bridged by prediction [s]; after longer ones the state is stale and begins anew, masses and
-  // inertias being held. Positive, at most 65534 measurements.
+  // inertias being held. In whole measurements, 1 to 65534 of them.
   double bridge;
   // So many improbable measurements in a row that agree with each other are a jump of the sensor. 2..65535.
   uint32_t jump_after;
@@ -549,12 +549,12 @@ typedef struct fsb_guard_t {
 
 // One of the two groups of axes: x, y, z, or the angles about the body's axes.
 typedef struct fsb_vehicle_group_t {
-  // Control periods from one measurement to the next, at least 1.
+  // Control periods from one measurement to the next, 1..65535.
   uint32_t substeps;
   // Control periods by which a measurement is late: what is given at an update was true so many periods before.
   // Up to FSB_VEHICLE_MAX_LATENCY; that of the translation not below that of the rotation.
   uint32_t latency;
-  // Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper.
+  // Measurements per step of the identifier, 1..65535. More where the measurement rate is high: cheaper.
   uint32_t block;
   // FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
   uint32_t readout;
@@ -562,18 +562,18 @@ typedef struct fsb_vehicle_group_t {
   struct fsb_tuning_t identifier;
   // Tuning of the observer; runs at period * substeps.
   struct fsb_tuning_t observer;
-  // Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN.
+  // Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
-  // Time constant [s] with which the identifier forgets; INFINITY: never.
+  // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
-  // The largest relative standard deviation at which a parameter becomes valid.
+  // The largest relative standard deviation at which a parameter becomes valid. 1e-15..1e6.
   double max_relative_sd;
   // The largest share of the filtered acceleration's mean square that the model may leave unexplained before a
   // parameter is contradicted; above 0, up to 1. NaN: not asked.
   double max_misfit;
-  // No parameter is valid earlier than this after a reset [s].
+  // No parameter is valid earlier than this after a reset [s]. 0 to 1e9 measurements.
   double parameter_settle;
-  // States are not valid earlier than this after the first measurement [s].
+  // States are not valid earlier than this after the first measurement [s]. 0 to 1e9 measurements.
   double state_settle;
   // What cannot be true.
   struct fsb_guard_t guard;
@@ -585,11 +585,11 @@ typedef struct fsb_vehicle_group_t {
 
 // What is known of a mass [kg] or a moment of inertia [kg m^2] beforehand; fsb_expected_about fills it in.
 typedef struct fsb_expected_t {
-  // Predicted with until the parameter is identified. NaN: not known, and no state is handed out before.
+  // Predicted with until the parameter is identified. 1e-12..1e12. NaN: not known, and no state is handed out before.
   double nominal;
-  // The smallest that can be right; positive. A smaller estimate is never used.
+  // The smallest that can be right. 1e-12..1e12. A smaller estimate is never used.
   double min;
-  // The largest that can be right.
+  // The largest that can be right; above the smallest, up to 1e12.
   double max;
 } fsb_expected_t;
 
@@ -762,7 +762,7 @@ fsb_status_t fsb_axis_measure(struct fsb_axis_t *estimator,
 // Takes the input [N or N m] held over the control period that begins now, once a tick. Give what the actuators
 // really do (saturated, and with their lag where it is known).
 //
-// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before
+// Not finite or beyond the limit: rejected, counted, and replaced by the axis's mean input of late. Nothing happens before
 // the first measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded
 // work.
 fsb_status_t fsb_axis_apply(struct fsb_axis_t *estimator,
@@ -844,7 +844,7 @@ fsb_status_t fsb_rotation_measure(struct fsb_rotation_t *estimator,
 // Takes the torques [N m] held over the control period that begins now, once a tick. Give what the actuators
 // really do (saturated, and with their lag where it is known).
 //
-// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before
+// Not finite or beyond the limit: rejected, counted, and replaced by the axis's mean input of late. Nothing happens before
 // the first measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded
 // work.
 fsb_status_t fsb_rotation_apply(struct fsb_rotation_t *estimator,
@@ -968,7 +968,7 @@ fsb_status_t fsb_translation_measure(struct fsb_translation_t *estimator,
 // Takes the forces x, y, z [N] held over the control period that begins now, once a tick. Give what the
 // actuators really do (saturated, and with their lag where it is known).
 //
-// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before
+// Not finite or beyond the limit: rejected, counted, and replaced by the axis's mean input of late. Nothing happens before
 // the first measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded
 // work.
 fsb_status_t fsb_translation_apply(struct fsb_translation_t *estimator,

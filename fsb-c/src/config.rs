@@ -43,11 +43,11 @@ pub struct fsb_tuning_t {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_rule_t {
-    /// The smallest k that can be right; positive.
+    /// The smallest k that can be right. 1e-15..1e15.
     pub min: f64,
-    /// The largest k that can be right.
+    /// The largest k that can be right; above the smallest, up to 1e15.
     pub max: f64,
-    /// The largest sd(k)/k at which k becomes valid; it stays valid up to twice that.
+    /// The largest sd(k)/k at which k becomes valid; it stays valid up to twice that. 1e-15..1e6.
     pub max_relative_sd: f64,
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn refusal(error: ConfigError) -> Refusal {
 
 /// The name of a parameter as C text.
 fn named(name: &str) -> *const c_char {
-    let all = NAMES.as_bytes();
+    let all = NAMES.as_slice();
     // Where it is not one of these it is out of all bounds.
     let start = name.as_ptr().addr().wrapping_sub(all.as_ptr().addr());
     match all.get(start.wrapping_add(name.len()).wrapping_add(1)..) {
@@ -198,5 +198,49 @@ impl From<Tuning> for fsb_tuning_t {
 impl From<fsb_tuning_t> for Tuning {
     fn from(fsb_tuning_t { lambda, q }: fsb_tuning_t) -> Self {
         Self { lambda, q }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::ffi::{CStr, c_char};
+
+    use crate::axis::{fsb_axis_config_default, fsb_axis_config_t, fsb_axis_init, fsb_axis_t};
+    use crate::tracking::{fsb_tracking_config_default, fsb_tracking_init, fsb_tracking_t};
+
+    fn text(name: *const c_char) -> &'static str {
+        assert!(!name.is_null());
+        // SAFETY: a text of the library's.
+        unsafe { CStr::from_ptr(name) }.to_str().unwrap()
+    }
+
+    /// In every build, and not only where all of it is linked as one.
+    #[test]
+    fn the_parameter_at_fault_is_named() {
+        type Spoil = fn(&mut fsb_axis_config_t);
+        let wrong: [(Spoil, &str); 8] = [
+            (|c| c.period = 0.0, "period"),
+            (|c| c.identifier.q = 0.0, "identifier.q"),
+            (|c| c.observer.lambda = f64::NAN, "observer.lambda"),
+            (|c| c.memory_tau = 0.0, "memory_tau"),
+            (|c| c.input_limit = -1.0, "input_limit"),
+            (|c| c.drift = f64::INFINITY, "drift"),
+            (|c| c.rule.max = -0.0, "rule.min"),
+            (|c| c.rule.max_relative_sd = 0.0, "rule.max_relative_sd"),
+        ];
+        for (spoil, expected) in wrong {
+            let mut axis = core::mem::MaybeUninit::<fsb_axis_t>::uninit();
+            let (mut config, mut name) = (fsb_axis_config_default(0.01), core::ptr::null());
+            spoil(&mut config);
+            // SAFETY: good pointers.
+            assert_ne!(unsafe { fsb_axis_init(axis.as_mut_ptr(), &config, &mut name) }, 0);
+            assert_eq!(text(name), expected);
+        }
+        let mut controller = core::mem::MaybeUninit::<fsb_tracking_t>::uninit();
+        let (mut config, mut name) = (fsb_tracking_config_default(4.0, 3.0), core::ptr::null());
+        config.k_max = f64::NAN;
+        // SAFETY: good pointers.
+        assert_ne!(unsafe { fsb_tracking_init(controller.as_mut_ptr(), &config, &mut name) }, 0);
+        assert_eq!(text(name), "k_max");
     }
 }

@@ -7,7 +7,7 @@ use fsb_core::Estimator;
 use fsb_core::estimator::Learning;
 
 use crate::config::{Configuration, FSB_LEARNING_CONTACT, FSB_LEARNING_OFF, FSB_LEARNING_ON};
-use crate::object::{self, Object, borrow, change, initialised, unnamed};
+use crate::object::{self, Object, aligned, borrow, change, initialised, unnamed};
 use crate::status::{FSB_OUT_OF_STEP, FSB_UNKNOWN_VALUE, fsb_status_t};
 
 /// # Safety
@@ -21,8 +21,10 @@ where
     O: Object<Value = Estimator<N, P>>,
 {
     // SAFETY: the pointers come from the C caller, whose contract this is.
-    let outcome =
-        unsafe { object::place(estimator, Estimator::unconfigured).and_then(|placed| Ok((placed, borrow(config)?))) };
+    let outcome = unsafe {
+        object::place(estimator, Estimator::unconfigured)
+            .and_then(|placed| aligned(parameter.cast_const()).and_then(|()| Ok((placed, borrow(config)?))))
+    };
     let outcome = match outcome {
         Ok(((estimator, mark), config)) => config.unshaped().give_to(estimator.configuring(), mark),
         Err(status) => Err(unnamed(status)),

@@ -54,6 +54,11 @@ fn checked<T>(pointer: *const T) -> Result<(), fsb_status_t> {
     }
 }
 
+/// A pointer that may be NULL, but not misaligned.
+pub(crate) fn aligned<T>(pointer: *const T) -> Result<(), fsb_status_t> {
+    if pointer.is_aligned() { Ok(()) } else { Err(FSB_MISALIGNED) }
+}
+
 /// # Safety
 /// The contract of this module, for one O.
 unsafe fn marked<O: Object>(object: *const O) -> Result<(), fsb_status_t> {

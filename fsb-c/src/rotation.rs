@@ -39,9 +39,9 @@ const _: () = check_storage::<fsb_rotation_t>(FSB_ROTATION_SIZE, FSB_ROTATION_AL
 pub struct fsb_rotation_config_t {
     /// Control period [s]: the time from one call of apply to the next. 1e-6..1e3.
     pub period: f64,
-    /// Control periods from one measurement to the next, at least 1.
+    /// Control periods from one measurement to the next, 1..65535.
     pub substeps: u32,
-    /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper,
+    /// Measurements per step of the identifier, 1..65535. More where the measurement rate is high: cheaper,
     /// and no less accurate.
     pub block: u32,
     /// Measurements by which the turns of this estimator come later, so that several on one processor do not do their
@@ -55,14 +55,14 @@ pub struct fsb_rotation_config_t {
     pub observer: fsb_tuning_t,
     /// Standard deviation of a measurement [rad] where it is known beforehand, else NaN. 1e-12..1e6.
     pub noise_sd: f64,
-    /// Time constant [s] with which the identifier forgets; INFINITY: never.
+    /// Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
     pub memory_tau: f64,
     /// The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
     /// is contradicted; above 0, up to 1. NaN: not asked.
     pub max_misfit: f64,
-    /// k is not valid earlier than this after a reset [s].
+    /// k is not valid earlier than this after a reset [s]. 0 to 1e9 measurements.
     pub parameter_settle: f64,
-    /// States are not valid earlier than this after the first measurement [s].
+    /// States are not valid earlier than this after the first measurement [s]. 0 to 1e9 measurements.
     pub state_settle: f64,
     /// A measurement of larger magnitude is rejected [rad]. Up to 1e6.
     pub position_limit: f64,
@@ -146,7 +146,7 @@ pub unsafe extern "C" fn fsb_rotation_measure(estimator: *mut fsb_rotation_t, an
 /// Takes the torques [N m] held over the control period that begins now, once a tick. Give what the actuators
 /// really do (saturated, and with their lag where it is known).
 ///
-/// Not finite or beyond the limit: rejected, counted, and replaced by the last good one. Nothing happens before
+/// Not finite or beyond the limit: rejected, counted, and replaced by the axis's mean input of late. Nothing happens before
 /// the first measurement. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED. For the tick: bounded
 /// work.
 /// cbindgen:ptrs-as-arrays=[[input;3]]

@@ -8,7 +8,7 @@ use fsb_core::control::{Reference, TrackingConfig, TrackingController, to_body};
 use fsb_core::estimator::AxisState;
 
 use crate::config::refusal;
-use crate::object::{self, Object, borrow, check_storage, give, initialised, read, take, unnamed};
+use crate::object::{self, Object, aligned, borrow, check_storage, give, initialised, read, take, unnamed};
 use crate::status::{fsb_status_t, of_control};
 use crate::values::fsb_state_t;
 
@@ -35,15 +35,15 @@ const _: () = check_storage::<fsb_tracking_t>(FSB_TRACKING_SIZE, FSB_TRACKING_AL
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_tracking_config_t {
-    /// Gain of the position error [1/s^2]; positive.
+    /// Gain of the position error [1/s^2]. 1e-15..1e15.
     pub kp: f64,
-    /// Gain of the velocity error [1/s]; positive.
+    /// Gain of the velocity error [1/s]. 1e-15..1e15.
     pub kd: f64,
-    /// Known drift of the axis [m/s^2 or rad/s^2], as in the estimator; the input makes up for it.
+    /// Known drift of the axis [m/s^2 or rad/s^2], as in the estimator; the input makes up for it. Up to 1e6.
     pub drift: f64,
-    /// The smallest k by which the controller divides; positive.
+    /// The smallest k by which the controller divides. 1e-15..1e15.
     pub k_min: f64,
-    /// The largest k by which the controller divides.
+    /// The largest k by which the controller divides; not below the smallest, up to 1e15.
     pub k_max: f64,
 }
 
@@ -78,6 +78,7 @@ pub unsafe extern "C" fn fsb_tracking_init(
     parameter: *mut *const c_char,
 ) -> fsb_status_t {
     let outcome = object::start(controller, || {
+        aligned(parameter.cast_const()).map_err(unnamed)?;
         let fsb_tracking_config_t { kp, kd, drift, k_min, k_max } = *borrow(config).map_err(unnamed)?;
         let config = TrackingConfig { kp, kd, drift, parameter_min: k_min, parameter_max: k_max };
         TrackingController::new(&config).map_err(refusal)

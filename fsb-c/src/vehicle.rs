@@ -25,7 +25,7 @@ use self::values::{
     fsb_wrench_t,
 };
 use crate::config::{FSB_LEARNING_CONTACT, FSB_LEARNING_OFF, FSB_LEARNING_ON};
-use crate::object::{self, Object, borrow, change, check_storage, give, initialised, read, take, unnamed};
+use crate::object::{self, Object, aligned, borrow, change, check_storage, give, initialised, read, take, unnamed};
 use crate::status::{FSB_MISALIGNED, FSB_UNKNOWN_VALUE, fsb_status_t};
 use crate::values::fsb_diagnostics_t;
 
@@ -97,6 +97,7 @@ pub unsafe extern "C" fn fsb_vehicle_init(
     parameter: *mut *const c_char,
 ) -> fsb_status_t {
     let outcome = object::start(vehicle, || {
+        aligned(parameter.cast_const()).map_err(unnamed)?;
         let (config, frame) = borrow(config).map_err(unnamed)?.to_core()?;
         let estimator = VehicleEstimator::new(&config).map_err(names::refusal)?;
         Ok(Vehicle { estimator, frame })

@@ -32,6 +32,8 @@ typedef union {
 
 static storage object;
 static const float numbers[3] = {0.1f, 0.2f, 0.3f};
+static void *unplaced_of[2]; /* only its address is used */
+static unsigned char *const unplaced = (unsigned char *)unplaced_of;
 
 static int is_nan3(const fsb_state_t *s, int n) {
   for (int i = 0; i < n; i++)
@@ -108,6 +110,8 @@ static void fill(void *out, size_t size) { memset(out, 0x41, size); }
     CHECK(fsb_##kind##_init(NULL, &config, &name) == FSB_NULL_POINTER && name == NULL);                 \
     CHECK(fsb_##kind##_init((struct fsb_##kind##_t *)(void *)(object.bytes + 4), &config, NULL) == FSB_MISALIGNED); \
     CHECK(fsb_##kind##_init(it, NULL, &name) == FSB_NULL_POINTER);                                      \
+    CHECK(fsb_##kind##_init(it, &config, (const char **)(void *)(unplaced + 1)) == FSB_MISALIGNED);     \
+    CHECK(fsb_##kind##_reset(it) == FSB_NOT_INITIALISED);                                               \
     CHECK(fsb_##kind##_init(it, &config, NULL) == FSB_OK);                                              \
     CHECK(fsb_##kind##_init(it, &config, &name) == FSB_OK && name == NULL);                             \
     CHECK(fsb_##kind##_##STATES(it, s) == FSB_OK && s[0].status == FSB_STATE_NOT_MEASURED && isnan(s[0].position)); \
@@ -197,6 +201,7 @@ static void tracking(void) {
   CHECK(fsb_tracking_input(it, &reference, &state, 2.0f, &input) == FSB_NOT_INITIALISED && isnan(input));
   CHECK(fsb_tracking_init(NULL, &config, &name) == FSB_NULL_POINTER && name == NULL);
   CHECK(fsb_tracking_init(it, NULL, NULL) == FSB_NULL_POINTER);
+  CHECK(fsb_tracking_init(it, &config, (const char **)(void *)(unplaced + 1)) == FSB_MISALIGNED);
   config.kp = 0.0;
   CHECK(fsb_tracking_init(it, &config, &name) == FSB_CONFIG_NOT_POSITIVE && !strcmp(name, "kp"));
   config = fsb_tracking_config_default(4.0, NAN);

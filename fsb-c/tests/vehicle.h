@@ -127,6 +127,7 @@ static void vehicle(void) {
   CHECK(fsb_vehicle_init(NULL, &config, &name) == FSB_NULL_POINTER && name == NULL);
   CHECK(fsb_vehicle_init((fsb_vehicle_t *)(void *)(bytes + 4), &config, NULL) == FSB_MISALIGNED);
   CHECK(fsb_vehicle_init(it, NULL, &name) == FSB_NULL_POINTER);
+  CHECK(fsb_vehicle_init(it, &config, (const char **)(void *)(unplaced + 1)) == FSB_MISALIGNED);
   CHECK(fsb_vehicle_init(it, &config, NULL) == FSB_OK);
   REFUSED_BY(rotation, states, parameters, object.bytes, 3, 3, FSB_NOT_INITIALISED);
 

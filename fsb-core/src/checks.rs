@@ -173,9 +173,9 @@ impl Checks {
     pub fn limits(&mut self, rules: &'static [Rule; 2], limits: [f64; 2], may_be_equal: bool) -> (f32, f32) {
         let [low, high] = limits.map(Wide::new);
         let least = self.within(&rules[0], low);
-        // Negative numbers have negative bits here, and are below any lower limit that is right.
-        let above = high.bits() as i64 - i64::from(!may_be_equal);
-        if above < low.bits() as i64 && high.is_finite() {
+        // Negative numbers have negative bits here, zero with a sign the least of all, and are below any lower limit that is right.
+        let from = (low.bits() as i64).wrapping_add(i64::from(!may_be_equal));
+        if (high.bits() as i64) < from && high.is_finite() {
             self.note(rules[0].0, Fault::InvertedRange);
         }
         (least, self.within(&rules[1], high))
@@ -258,6 +258,32 @@ mod tests {
         }
         assert_eq!(fault(f64::from_bits(1), &Range::POSITIVE), None);
         assert_eq!(fault(f64::MAX, &Range::POSITIVE), None);
+    }
+
+    /// Any bits: no panic, zero has no sign, and what is wrong with the lower limit comes first.
+    #[test]
+    fn a_pair_of_limits() {
+        const LIMITS: [Rule; 2] = [Rule("low", &Range::PARAMETER), Rule("high", &Range::PARAMETER)];
+        let fault = |limits, may_be_equal| {
+            let mut checks = Checks::new();
+            checks.limits(&LIMITS, limits, may_be_equal);
+            checks.outcome().err()
+        };
+        let (inverted, above) = (Some(ConfigError::InvertedRange("low")), 1.0 + f64::EPSILON);
+        for may_be_equal in [false, true] {
+            assert_eq!(fault([1.0, above], may_be_equal), None);
+            assert_eq!(fault([1.0, 1.0], may_be_equal), if may_be_equal { None } else { inverted });
+            assert_eq!(fault([above, 1.0], may_be_equal), inverted);
+            for high in [0.0, -0.0, -1.0, -f64::MAX, -f64::from_bits(1)] {
+                assert_eq!(fault([1.0, high], may_be_equal), inverted, "{high}");
+            }
+            for none in [f64::NAN, -f64::NAN, f64::from_bits(u64::MAX >> 1), f64::from_bits(u64::MAX), f64::INFINITY] {
+                for high in [-0.0, 1.0, none] {
+                    assert_eq!(fault([none, high], may_be_equal), Some(ConfigError::NonFinite("low")), "{high}");
+                }
+                assert_eq!(fault([1.0, none], may_be_equal), Some(ConfigError::NonFinite("high")));
+            }
+        }
     }
 
     /// The first thing found stays.

@@ -75,19 +75,27 @@ impl fmt::Display for ConfigError {
 
 impl core::error::Error for ConfigError {}
 
-/// The names of the parameters of an estimator and of a tracking controller, in one text with a zero behind each: where an error
-/// carries one of these it is a part of this text, and so is a text of C as well. Where a parameter goes by another name in
-/// C that one follows, after an equals sign.
-pub static NAMES: &str = concat!(
+const TEXT: &str = concat!(
     "period\0substeps\0block\0turn\0readout\0identifier.lambda\0identifier.q\0observer.lambda\0observer.q\0noise_sd\0",
     "memory.tau\0=memory_tau\0drift\0nominal\0rule.min\0rule.max\0rule.max_relative_sd\0max_misfit\0",
     "parameter_settle\0state_settle\0position_limit\0input_limit\0",
     "kp\0kd\0parameter_min\0=k_min\0parameter_max\0=k_max\0",
 );
 
+/// The names of the parameters of an estimator and of a tracking controller, in one text with a zero behind each: where an error
+/// carries one of these it is a part of this text, and so is a text of C as well. Where a parameter goes by another name in
+/// C that one follows, after an equals sign.
+///
+/// The text itself and no reference to it: a static has one address, a text that is only referred to may be there several times.
+pub static NAMES: [u8; TEXT.len()] = {
+    let mut names = [0; TEXT.len()];
+    names.copy_from_slice(TEXT.as_bytes());
+    names
+};
+
 /// The part of [`NAMES`] that says `name`. For constants: where there is none it fails to compile.
 pub(crate) const fn name(name: &str) -> &'static str {
-    let (all, wanted) = (NAMES.as_bytes(), name.as_bytes());
+    let (all, wanted) = (&NAMES, name.as_bytes());
     let (mut start, mut at) = (0, 0);
     loop {
         if all[at] != 0 {
@@ -99,7 +107,11 @@ pub(crate) const fn name(name: &str) -> &'static str {
             same += 1;
         }
         if same == wanted.len() && start + same == at {
-            return NAMES.split_at(start).1.split_at(wanted.len()).0;
+            let found = all.split_at(start).1.split_at(wanted.len()).0;
+            return match core::str::from_utf8(found) {
+                Ok(found) => found,
+                Err(_) => panic!(),
+            };
         }
         at += 1;
         start = at;

@@ -181,7 +181,7 @@ fn bad_input_is_named_and_nothing_is_written() {
         (&["--set", "plant.mas=1"], "unknown field `mas`"),
         (&["--set", "plant.mass=-1"], "plant.mass = -1.0"),
         (&["--set", "plant.mass"], "KEY=VALUE"),
-        (&["--set", "estimator.translation.lambda=1e5"], "translation.identifier.lambda"),
+        (&["--set", "estimator.translation.lambda=1e5"], "estimator.translation.lambda"),
         (&["--set", "sensors.position.latency=5"], "latency"),
         (&["--runs", "0"], "0"),
         (&["--sed", "1"], "--sed"),

@@ -120,7 +120,7 @@ fn the_start_can_be_set() {
 /// Exit status 2, the parameter named on stderr, nothing on stdout, nothing written.
 #[test]
 fn bad_parameters_are_named_and_nothing_is_written() {
-    let cases: [(&[&str], &str); 20] = [
+    let cases: [(&[&str], &str); 22] = [
         (&["paper", "--rate", "0"], "--rate"),
         (&["paper", "--rate", "-100"], "--rate"),
         (&["paper", "--rate", "fast"], "--rate"),
@@ -141,6 +141,8 @@ fn bad_parameters_are_named_and_nothing_is_written() {
         (&["efficiency", "--runs", "1"], "--runs"),
         (&["soak", "--rate", "1"], "--rate"),
         (&["soak", "--hours", "0.001"], "--hours"),
+        (&["soak", "--faults", "--rate", "999"], "--rate"),
+        (&["soak", "--faults", "--rate", "40000"], "--rate"),
     ];
     for (arguments, name) in cases {
         let root = tempfile::tempdir().unwrap();
@@ -149,6 +151,16 @@ fn bad_parameters_are_named_and_nothing_is_written() {
         assert!(text(&output.stderr).contains(name), "{arguments:?}: {}", text(&output.stderr));
         assert!(output.stdout.is_empty(), "{arguments:?}: {}", text(&output.stdout));
         assert!(files(root.path()).is_empty(), "{arguments:?} wrote something");
+    }
+}
+
+/// The first velocity, a difference of two noisy or faulty positions, is no signal without bounds, at any rate and seed.
+#[test]
+fn a_soak_holds_at_high_rates_and_after_a_bad_start() {
+    let root = tempfile::tempdir().unwrap();
+    for arguments in [&["--rate", "8000"][..], &["--faults", "--seed", "4"], &["--faults", "--rate", "5000"]] {
+        let output = fsb(root.path(), &[&["soak", "--hours", "0.0167"][..], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
     }
 }
 

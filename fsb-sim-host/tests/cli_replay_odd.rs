@@ -86,3 +86,24 @@ fn options_of_two_files_are_refused_with_one() {
         assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
     }
 }
+
+/// A message says what is so: what a read-out must remember at least, and which inputs tell nothing.
+#[test]
+fn what_is_refused_or_not_valid_is_explained() {
+    let log = swing("x", "fx", sine);
+    for (args, least) in [(&[][..], "0.01"), (&["--identify", "k"], "0.05"), (&["--lambda", "0.02"], "0.1")] {
+        let (output, stderr) = replay(&log, &[args, &["--fade", "0.009"]].concat());
+        assert!(
+            stderr.contains(&format!("--fade 0.009: must be at least one step of what is read out, {least} s")),
+            "{stderr}"
+        );
+        assert_eq!(output.status.code(), Some(2));
+        json(&log, &[args, &["--fade", least]].concat());
+    }
+    let (output, stderr) = replay(&log, &["--lambda", "1e-4"]);
+    assert!(stderr.contains("too short for this λ") && output.status.success(), "{stderr}");
+    let (_, stderr) = replay(&swing("x", "fx", |t| Some(2e6 + t)), &[]);
+    assert!(stderr.contains("a position of at most 1e6 in magnitude"), "{stderr}");
+    let (_, stderr) = replay(&log, &["--full-thrust", "1e300"]);
+    assert!(stderr.contains("must be at most 1e6 N"), "{stderr}");
+}

@@ -248,7 +248,31 @@ fn bad_input_is_named_and_nothing_is_written() {
         assert_eq!(output.status.code(), Some(2), "{stderr}");
         assert!(output.stdout.is_empty() && !directory.path().join("out").exists());
     }
+    let directory = with_files(&motion, &input);
+    fs::write(directory.path().join("names.toml"), "[sensor]\nx = \"x\"\n").unwrap();
+    let output = fsb(directory.path(), &[&PAIR[..], &["--columns", "names.toml"]].concat());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("names.toml: sensor: found a value of type table"));
     let (output, _) = replay(&motion, &input, &["--identify", "drag"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("k is always identified"));
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// Whatever ends a line, and with empty lines between: the line an editor shows.
+#[test]
+fn the_line_at_fault_is_the_one_an_editor_shows() {
+    let (motion, input) = Vehicle { seconds: 1.0, ..Vehicle::default() }.record();
+    let mut lines: Vec<&str> = motion.lines().collect();
+    lines[30] = "0.3,none,0,0,1,0,0,0,0,0,0";
+    for (end, line) in [("\n", 31), ("\r\n", 31), ("\r", 31), ("\n\n", 61), ("\r\n\r\n", 61)] {
+        let (output, _) = replay(&lines.join(end), &input, &[]);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(stderr.contains(&format!("motion.csv:{line}: column x: found `none`")), "{end:?}: {stderr}");
+    }
+    let below = format!("\n\n{}", motion.replacen("qw", "q0", 1));
+    let (output, _) = replay(&below, &input, &[]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("motion.csv:3: no column `qw`"));
+    lines[30] = "nan,0,0,0,1,0,0,0,0,0,0";
+    let (output, _) = replay(&lines.join("\n"), &input, &[]);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(stderr.contains("motion.csv:31: column t: found `nan`, expected a finite number\n"), "{stderr}");
 }

@@ -13,11 +13,11 @@ use crate::status::FSB_CONFIG_OUT_OF_RANGE;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_expected_t {
-    /// Predicted with until the parameter is identified. NaN: not known, and no state is handed out before.
+    /// Predicted with until the parameter is identified. 1e-12..1e12. NaN: not known, and no state is handed out before.
     pub nominal: f64,
-    /// The smallest that can be right; positive. A smaller estimate is never used.
+    /// The smallest that can be right. 1e-12..1e12. A smaller estimate is never used.
     pub min: f64,
-    /// The largest that can be right.
+    /// The largest that can be right; above the smallest, up to 1e12.
     pub max: f64,
 }
 
@@ -32,7 +32,7 @@ pub struct fsb_guard_t {
     /// Steps up to this always pass [m or rad]: a few quanta of the sensor. 0..1e6.
     pub floor: f64,
     /// Gaps up to this are bridged by prediction [s]; after longer ones the state is stale and begins anew, masses and
-    /// inertias being held. Positive, at most 65534 measurements.
+    /// inertias being held. In whole measurements, 1 to 65534 of them.
     pub bridge: f64,
     /// So many improbable measurements in a row that agree with each other are a jump of the sensor. 2..65535.
     pub jump_after: u32,
@@ -45,12 +45,12 @@ pub struct fsb_guard_t {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_vehicle_group_t {
-    /// Control periods from one measurement to the next, at least 1.
+    /// Control periods from one measurement to the next, 1..65535.
     pub substeps: u32,
     /// Control periods by which a measurement is late: what is given at an update was true so many periods before.
     /// Up to FSB_VEHICLE_MAX_LATENCY; that of the translation not below that of the rotation.
     pub latency: u32,
-    /// Measurements per step of the identifier, at least 1. More where the measurement rate is high: cheaper.
+    /// Measurements per step of the identifier, 1..65535. More where the measurement rate is high: cheaper.
     pub block: u32,
     /// FSB_READOUT_LEAST_SQUARES or FSB_READOUT_ABSOLUTE_RATIO.
     pub readout: u32,
@@ -58,18 +58,18 @@ pub struct fsb_vehicle_group_t {
     pub identifier: fsb_tuning_t,
     /// Tuning of the observer; runs at period * substeps.
     pub observer: fsb_tuning_t,
-    /// Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN.
+    /// Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN. 1e-12..1e6.
     pub noise_sd: f64,
-    /// Time constant [s] with which the identifier forgets; INFINITY: never.
+    /// Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
     pub memory_tau: f64,
-    /// The largest relative standard deviation at which a parameter becomes valid.
+    /// The largest relative standard deviation at which a parameter becomes valid. 1e-15..1e6.
     pub max_relative_sd: f64,
     /// The largest share of the filtered acceleration's mean square that the model may leave unexplained before a
     /// parameter is contradicted; above 0, up to 1. NaN: not asked.
     pub max_misfit: f64,
-    /// No parameter is valid earlier than this after a reset [s].
+    /// No parameter is valid earlier than this after a reset [s]. 0 to 1e9 measurements.
     pub parameter_settle: f64,
-    /// States are not valid earlier than this after the first measurement [s].
+    /// States are not valid earlier than this after the first measurement [s]. 0 to 1e9 measurements.
     pub state_settle: f64,
     /// What cannot be true.
     pub guard: fsb_guard_t,

@@ -14,10 +14,11 @@ pub struct TrackingConfig {
     /// K_D of (12) (1/s); positive, 1e-15..=1e15.
     pub kd: f64,
     /// Known drift c of the axis (m/s² or rad/s²), -g on a vertical axis that points up; the input makes up for it.
+    /// Magnitude up to 1e6.
     pub drift: f64,
-    /// The smallest parameter that the controller divides by; positive.
+    /// The smallest parameter that the controller divides by; 1e-15..=1e15.
     pub parameter_min: f64,
-    /// The largest parameter that the controller divides by.
+    /// The largest parameter that the controller divides by; not below the smallest, up to 1e15.
     pub parameter_max: f64,
 }
 

@@ -9,9 +9,9 @@ use crate::tuning::Tuning;
 pub struct EstimatorConfig<const N: usize, const P: usize> {
     /// Control period (s): the time from one input to the next. 1e-6..=1e3.
     pub period: f64,
-    /// Control periods from one measurement to the next, at least 1. The measurement period is `T = substeps * period`.
+    /// Control periods from one measurement to the next, 1..=65535. The measurement period is `T = substeps * period`.
     pub substeps: u32,
-    /// M, measurements per step of the identifier, at least 1. More than one where the measurement rate is high
+    /// M, measurements per step of the identifier, 1..=65535. More than one where the measurement rate is high
     /// (λT below about 1e-3): cheaper, and no less accurate. The axes take turns within the block.
     pub block: u32,
     /// Measurements by which the identifier starts later than the observer, so that several estimators on one processor do
@@ -22,7 +22,7 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     /// λ and q of the observer.
     pub observer: Tuning,
     /// Standard deviation of a measurement (m or rad), where it is known beforehand. It is used until enough samples have
-    /// been seen to learn it; without it k̂ is not valid in the first 0.75/λ or so.
+    /// been seen to learn it; without it k̂ is not valid in the first 0.75/λ or so. 1e-12..=1e6.
     pub noise_sd: Option<f64>,
     /// How k is read out.
     pub readout: Readout,
@@ -31,6 +31,7 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     /// Known constant drift c of each axis (m/s² or rad/s²), -g on a vertical axis that points up. Magnitude up to 1e6.
     pub drift: [f64; N],
     /// k0 of each parameter, used by the observer until k̂ is valid. `None`: no state is handed out before.
+    /// 1e-15..=1e15.
     pub nominal: [Option<f64>; P],
     /// When k̂ of each parameter counts as valid.
     pub rule: [ParameterRule; P],
@@ -38,9 +39,9 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     /// the parameter is contradicted (thrust on the ground, a motor that does not obey) and no longer valid. Above 0, up to
     /// 1; `None`: not asked.
     pub max_misfit: Option<f64>,
-    /// ε of the parameter (s): k̂ is not valid earlier.
+    /// ε of the parameter (s): k̂ is not valid earlier. 0 to 1e9 measurement periods.
     pub parameter_settle: f64,
-    /// ε of the state (s): position and velocity are not handed out earlier.
+    /// ε of the state (s): position and velocity are not handed out earlier. 0 to 1e9 measurement periods.
     pub state_settle: f64,
     /// A measurement of larger magnitude is rejected (m or rad). Up to 1e6.
     pub position_limit: f64,

@@ -19,7 +19,7 @@ pub struct GuardConfig {
     pub jump_after: u32,
     /// Gaps up to this are bridged by prediction (s). An axis that has not been measured for longer is stale: its state is not
     /// handed out. Where all axes are, the windows start anew with the next measurement; where one was, the identification.
-    /// Parameters are held. Positive, at most 65535 measurement periods.
+    /// Parameters are held. Rounded to whole measurement periods, 1..=65534 of them.
     pub bridge: f64,
     /// A measurement whose bits have been the same for more than so many samples is one of a frozen sensor; 0: never. It takes
     /// two that differ to end that, as a bit of a frozen value may flip. Up to 65535.

@@ -34,11 +34,12 @@ impl Parameter {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(C)]
 pub struct ParameterRule {
-    /// The smallest k that can be right; positive. A smaller k̂ is reported, never used.
+    /// The smallest k that can be right; 1e-15..=1e15. A smaller k̂ is reported, never used.
     pub min: f64,
-    /// The largest k that can be right.
+    /// The largest k that can be right; above the smallest, up to 1e15.
     pub max: f64,
     /// The largest sd(k̂)/k̂ at which k̂ becomes valid. It stays valid up to twice that (hysteresis).
+    /// 1e-15..=1e6.
     pub max_relative_sd: f64,
 }
 

@@ -31,11 +31,11 @@ pub struct VehicleConfig {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Expected {
-    /// Predicted with until the parameter is identified. `None`: no state is handed out before.
+    /// Predicted with until the parameter is identified; 1e-12..=1e12. `None`: no state is handed out before.
     pub nominal: Option<f64>,
-    /// The smallest that can be right; positive. A smaller estimate is never used.
+    /// The smallest that can be right; 1e-12..=1e12. A smaller estimate is never used.
     pub min: f64,
-    /// The largest that can be right.
+    /// The largest that can be right; above the smallest, up to 1e12.
     pub max: f64,
 }
 

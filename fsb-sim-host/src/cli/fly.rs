@@ -170,7 +170,7 @@ pub fn run(args: &Args) -> Result<ExitCode, Failure> {
     let report = folder.join("report.html");
     if args.json {
         print_json(&Json::of(&scenario, args.seed, &flights))?;
-        eprintln!("report: {}", report.display());
+        tell!("report: {}", report.display());
     } else {
         let text: String = page::tables(&scenario, &flights).iter().map(|table| table.to_text() + "\n").collect();
         let speed = format!("{:.0} × real time a core", flights.real_time_factor);
@@ -181,7 +181,7 @@ pub fn run(args: &Args) -> Result<ExitCode, Failure> {
         diverged => {
             let seeds: Vec<String> =
                 flights.runs.iter().filter(|r| r.diverged.is_some()).take(10).map(|r| r.seed.to_string()).collect();
-            eprintln!("{diverged} of {} flights diverged, among them --seed {}", flights.runs.len(), seeds.join(", "));
+            tell!("{diverged} of {} flights diverged, among them --seed {}", flights.runs.len(), seeds.join(", "));
             Ok(ExitCode::FAILURE)
         }
     }

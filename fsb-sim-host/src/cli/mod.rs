@@ -17,6 +17,13 @@
 // Documentation of arguments is help text, and units stand in brackets there.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+/// Prints a line to stderr. Where nobody takes it there is nobody left to tell, and the command goes on.
+macro_rules! tell {
+    ($($line:tt)*) => {
+        $crate::cli::print_line_to_stderr(format_args!($($line)*))
+    };
+}
+
 mod efficiency;
 mod exactness;
 mod faults;
@@ -27,6 +34,7 @@ mod soak;
 mod source;
 mod tune;
 
+use std::fmt;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -92,15 +100,15 @@ pub fn run() -> ExitCode {
     match done {
         Ok(status) => status,
         Err(Failure::Usage(message)) => {
-            eprintln!("error: {message}");
+            tell!("error: {message}");
             ExitCode::from(2)
         }
         Err(Failure::NoFlight(message)) => {
-            eprintln!("error: {message}");
+            tell!("error: {message}");
             ExitCode::from(3)
         }
         Err(Failure::Other(error)) => {
-            eprintln!("error: {error:#}");
+            tell!("error: {error:#}");
             ExitCode::FAILURE
         }
     }
@@ -123,6 +131,10 @@ fn run_command(command: &Command) -> Result<ExitCode, Failure> {
         Command::Faults(args) => faults::run(args),
         Command::Soak(args) => soak::run(args),
     }
+}
+
+fn print_line_to_stderr(line: fmt::Arguments<'_>) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
 /// Prints `value` as one JSON object; numbers that are not finite become null.

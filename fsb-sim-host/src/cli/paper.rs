@@ -173,7 +173,7 @@ pub fn run(args: &Args) -> Result<ExitCode, Failure> {
             core: JsonLoop::from(&result.core),
             paper_form: JsonLoop::from(&result.paper_form),
         })?;
-        eprintln!("report: {}", report.display());
+        tell!("report: {}", report.display());
         return Ok(ExitCode::SUCCESS);
     }
     let tables = page::tables(&scenario, &result, flights.end());

@@ -36,15 +36,16 @@ use std::path::PathBuf;
 /// step is below 1.3e-3, the identifier works on means of several samples.
 ///
 /// A log in which nothing becomes valid is replayed like any other, with exit status 0: the reason is told, and the JSON
-/// has null values with "valid": false. A ULog in which nothing flies, or inputs that are zero throughout, end with exit
-/// status 3.
+/// has null values with "valid": false. A ULog in which nothing flies, or an INPUT.csv that is zero throughout, ends with
+/// exit status 3.
 #[derive(Parser, Debug, Clone)]
 #[command(verbatim_doc_comment)]
 #[allow(rustdoc::broken_intra_doc_links, reason = "units in brackets; this is the help text")]
 pub struct Args {
     #[command(flatten)]
     source: source::Files,
-    /// λ of the identifier [1/s]; λT must be within 1e-6 and 1, T being the time step of the log.
+    /// λ of the identifier [1/s]; λT must be within 1e-6 and 1, T being the time step of the log, or of the means of several
+    /// samples that the identifier works on.
     #[arg(long, value_name = "L", default_value_t = 2.0, allow_negative_numbers = true)]
     lambda: f64,
     /// q of the identifier [1/s], within the same range [default: λ/2].
@@ -133,12 +134,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let Some(directory) = &args.out {
         let files = page::files(&result, &recording, &options, args.how_made(&options))?;
         for path in write_files(directory, &files)? {
-            eprintln!("wrote {}", path.display());
+            tell!("wrote {}", path.display());
         }
     }
     remarks.extend(told(&result, &recording));
     for line in remarks {
-        eprintln!("fsb: {line}");
+        tell!("fsb: {line}");
     }
     let tell_lag = recording.at_own_stamps || args.identify.is_some() || args.source.asks_for_lag();
     let mut summary = Summary::of(&result, &recording, options.gravity, tell_lag);

@@ -26,7 +26,7 @@ pub struct Args {
     /// Simulated flight [h], at least a minute
     #[arg(long, value_name = "H", default_value_t = 1.0, value_parser = positive)]
     hours: f64,
-    /// Ticks a second [Hz], 25 to 100000
+    /// Ticks a second [Hz], 25 to 100000; with --faults 1000 to 30000
     #[arg(long, value_name = "HZ", default_value_t = 1000.0, value_parser = positive)]
     rate: f64,
     /// Seed of the noise
@@ -61,7 +61,7 @@ struct Json {
 /// Flies and prints.
 pub fn run(args: &Args) -> Result<ExitCode, Failure> {
     let config = SoakConfig { hours: args.hours, rate: args.rate, seed: args.seed };
-    check(&config).map_err(Failure::Usage)?;
+    check(&config, args.faults).map_err(Failure::Usage)?;
     let minutes = (config.hours * 60.0).floor() as u64;
     let progress = Progress::new("simulated minutes", minutes, false);
     if args.faults {
@@ -182,9 +182,10 @@ fn print_faulty(args: &Args, config: &SoakConfig, report: &FaultReport) -> Resul
 }
 
 /// Names the parameter that cannot be right.
-fn check(config: &SoakConfig) -> Result<(), String> {
-    if !(25.0..=1e5).contains(&config.rate) {
-        return Err(format!("--rate {}: must be between 25 and 100000 Hz", config.rate));
+fn check(config: &SoakConfig, faults: bool) -> Result<(), String> {
+    let rates = if faults { faulty::RATES } else { 25.0..=1e5 };
+    if !rates.contains(&config.rate) {
+        return Err(format!("--rate {}: must be between {} and {} Hz", config.rate, rates.start(), rates.end()));
     }
     if config.hours < 1.0 / 60.0 || config.ticks() > 100_000_000_000 {
         return Err(format!("--hours {}: must be at least 1/60, and at most 1e11 ticks", config.hours));

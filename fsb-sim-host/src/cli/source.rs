@@ -33,8 +33,8 @@ pub struct Files {
     /// The thrust of INPUT.csv is a share of the full thrust: k is reported as the hover thrust g/k.
     #[arg(long, requires = "motion", conflicts_with = "full_thrust")]
     normalised: bool,
-    /// Thrust [N] at a set-point of 1, where the log has it as a share: k is then 1/mass.
-    #[arg(long, value_name = "N", value_parser = super::positive)]
+    /// Thrust [N] at a set-point of 1, where the log has it as a share: k is then 1/mass. Up to 1e6.
+    #[arg(long, value_name = "N", value_parser = full_thrust)]
     full_thrust: Option<f64>,
     /// By how much the input acts later than its time stamps say [s], or auto: the value that leaves least of the
     /// accelerations unexplained, within 0.2 s.
@@ -51,6 +51,12 @@ fn parse_lag(text: &str) -> Result<Lag, String> {
         Ok(lag) if lag.abs() <= 10.0 => Ok(Lag::Given(lag)),
         _ => Err("expected auto, or seconds within -10 and 10".into()),
     }
+}
+
+/// `--full-thrust`.
+fn full_thrust(text: &str) -> Result<f64, String> {
+    let thrust = super::positive(text)?;
+    if thrust <= 1e6 { Ok(thrust) } else { Err("must be at most 1e6 N".into()) }
 }
 
 /// What was read.

@@ -133,7 +133,7 @@ pub fn run(args: &Args) -> Result<ExitCode, Failure> {
         .map_err(|error| Failure::Usage(error.to_string()))?;
     if let Some(directory) = &args.out {
         for path in write_files(directory, &page::files(&proposal, args.how_made(&proposal))?)? {
-            eprintln!("wrote {}", path.display());
+            tell!("wrote {}", path.display());
         }
     }
     if args.json {

@@ -15,11 +15,29 @@ pub enum Refused {
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     /// The f32 core does not take it: part of the file, and what the core said.
-    #[error("{0}: {1}")]
+    #[error("{}.{}", .0, as_in_the_file(.1))]
     Core(&'static str, ConfigError),
     /// The ring that holds inputs until a late measurement comes has this much room [control periods].
     #[error("estimator: a latency of {0} control periods; up to {1} can be made up for")]
     TooLate(u32, usize),
+    /// Latencies of attitude and position [control periods].
+    #[error(
+        "estimator: an attitude that is {0} control periods late, and a position that is {1}; it must not be later than that"
+    )]
+    AttitudeLater(u32, u32),
+}
+
+/// What the core says, with the names of a scenario in place of its own.
+fn as_in_the_file(error: &ConfigError) -> String {
+    [
+        ("identifier.lambda", "lambda"),
+        ("identifier.q", "q"),
+        ("observer.lambda", "observer_lambda"),
+        ("observer.q", "observer_q"),
+        ("memory.tau", "fade"),
+    ]
+    .iter()
+    .fold(error.to_string(), |text, (of_core, of_file)| text.replace(of_core, of_file))
 }
 
 /// A scenario could not be had.

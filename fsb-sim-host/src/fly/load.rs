@@ -171,13 +171,37 @@ mod tests {
             ("plant.mass=nan", "plant.mass = NaN: must be"),
             ("duration=0", "duration = 0.0"),
             ("rate=1e9", "rate = "),
-            ("estimator.translation.lambda=-1", "translation.identifier.lambda must be positive"),
-            ("control.rotation.kp=0", "rotation.kp must be positive"),
+            ("estimator.translation.lambda=-1", "estimator.translation.lambda must be positive"),
+            ("estimator.rotation.observer_q=1e9", "estimator.rotation.observer_q times the period"),
+            ("estimator.rotation.fade=0", "estimator.rotation.fade must be positive"),
+            ("estimator.translation.latency=-1", "estimator.translation.latency = -1.0: must be from 0 to 60 s"),
+            ("estimator.rotation.latency=nan", "estimator.rotation.latency = NaN: must be"),
+            ("estimator.rotation.latency=0.1", "an attitude that is 20 control periods late, and a position that is 0"),
+            (
+                "random.mass=[0, 1]",
+                "random.mass = [0.0, 1.0]: must be a range [from, to], in order, from 0.001 to 1000",
+            ),
+            ("random.dropout=[0, 1.1]", "random.dropout = [0.0, 1.1]: must be a range"),
+            ("control.rotation.kp=0", "control.rotation.kp must be positive"),
             ("reference.position.kind=loop", "loop"),
         ] {
             let message = with(&[given]).unwrap_err();
             assert!(message.contains(part), "{given}: {message}");
         }
+    }
+
+    /// What is drawn around a first guess needs one; and the rotors may be as strong as is documented.
+    #[test]
+    fn what_hangs_together_is_checked_together() {
+        let blind = BUILT_IN[2].replace("mass = { nominal = 2.0, ", "mass = { ");
+        assert_ne!(blind, BUILT_IN[2]);
+        let of = |set: &[&str]| {
+            let set: Vec<String> = set.iter().map(|&set| set.to_owned()).collect();
+            parse("blind", Path::new("blind.toml"), &blind, &set).map_err(|error| error.to_string())
+        };
+        assert!(of(&[]).is_ok());
+        assert!(of(&["random.mass=[1, 2]"]).unwrap_err().contains("needs a first guess, estimator.mass.nominal"));
+        assert!(with(&["plant.rotor.thrust_max=1e5", "plant.frame.arm=100"]).is_ok());
     }
 
     #[test]

@@ -84,6 +84,9 @@ impl CorePilot {
         if latest as usize > LATEST {
             return Err(Refused::TooLate(latest, LATEST));
         }
+        if config.translation.latency < config.rotation.latency {
+            return Err(Refused::AttitudeLater(config.rotation.latency, config.translation.latency));
+        }
         let [mass, ix, iy, iz] = [config.mass, config.inertia[0], config.inertia[1], config.inertia[2]];
         let guess = [mass, ix, iy, iz].map(|p| p.nominal.unwrap_or((p.min * p.max).sqrt()) as f32);
         Ok(Self {

@@ -5,6 +5,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::scenario::Scenario;
+use super::settings::EstimatorSettings;
 use crate::hexarotor::ParameterError;
 
 /// Ranges `[from, to]` from which a flight draws; one that is absent leaves the scenario as it is.
@@ -36,26 +37,33 @@ impl RandomConfig {
         *self == Self::default()
     }
 
-    pub(super) fn check(&self) -> Result<(), ParameterError> {
+    /// `estimator` has the first guesses that mass and inertia are drawn around.
+    pub(super) fn check(&self, estimator: &EstimatorSettings) -> Result<(), ParameterError> {
+        const RATIO: (f64, f64, &str) = (1e-3, 1e3, "must be a range [from, to], in order, from 0.001 to 1000");
+        const NOISE: (f64, f64, &str) = (0.0, 1e3, "must be a range [from, to], in order, from 0 to 1000");
+        const TIME: (f64, f64, &str) = (0.0, 60.0, "must be a range [from, to], in order, from 0 to 60 s");
+        const SHARE: (f64, f64, &str) = (0.0, 1.0, "must be a range [from, to], in order, from 0 to 1");
         let ranges = [
-            ("mass", self.mass, 1e-3),
-            ("inertia", self.inertia, 1e-3),
-            ("position_noise", self.position_noise, 0.0),
-            ("attitude_noise", self.attitude_noise, 0.0),
-            ("position_latency", self.position_latency, 0.0),
-            ("attitude_latency", self.attitude_latency, 0.0),
-            ("dropout", self.dropout, 0.0),
+            ("mass", self.mass, RATIO),
+            ("inertia", self.inertia, RATIO),
+            ("position_noise", self.position_noise, NOISE),
+            ("attitude_noise", self.attitude_noise, NOISE),
+            ("position_latency", self.position_latency, TIME),
+            ("attitude_latency", self.attitude_latency, TIME),
+            ("dropout", self.dropout, SHARE),
         ];
-        for (name, range, least) in ranges {
+        for (name, range, (least, most, needs)) in ranges {
             if let Some([from, to]) = range
-                && !(least <= from && from <= to && to <= 1e3)
+                && !(least <= from && from <= to && to <= most)
             {
-                return Err(ParameterError::new(
-                    name,
-                    [from, to],
-                    "must be a range [from, to], in order, from 0 to 1000",
-                ));
+                return Err(ParameterError::new(name, [from, to], needs));
             }
+        }
+        if let (Some(range), None) = (self.mass, estimator.mass.nominal) {
+            return Err(ParameterError::new("mass", range, "needs a first guess, estimator.mass.nominal"));
+        }
+        if let (Some(range), None) = (self.inertia, estimator.inertia.nominal) {
+            return Err(ParameterError::new("inertia", range, "needs a first guess, estimator.inertia.nominal"));
         }
         match self.attitude {
             Some(most) if !(0.0..=1.5).contains(&most) => {

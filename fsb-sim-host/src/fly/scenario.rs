@@ -112,7 +112,8 @@ impl Scenario {
         self.reference.attitude.check().map_err(|error| error.within("reference.attitude"))?;
         check("limits.position", self.limits.position, 1e-3..=1e6, "must be from 0.001 to 1e6 m")?;
         check("limits.attitude", self.limits.attitude, 1e-3..=4.0, "must be from 0.001 to 4 rad")?;
-        self.random.check().map_err(|error| error.within("random"))?;
+        self.random.check(&self.estimator).map_err(|error| error.within("random"))?;
+        self.estimator.check().map_err(|error| error.within("estimator"))?;
         self.control.controller(self.plant.gravity)?;
         CorePilot::new(self, 0).map(|_| ())
     }

@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::error::Refused;
 use super::scenario::Scenario;
+use crate::hexarotor::ParameterError;
+use crate::hexarotor::error::check;
 use crate::sensors::SensorConfig;
 
 /// Gains of (11) and (13).
@@ -162,6 +164,12 @@ pub struct GroupSettings {
 }
 
 impl EstimatorSettings {
+    /// Checks what the core does not see as it is written in the file.
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
+        self.translation.check().map_err(|error| error.within("translation"))?;
+        self.rotation.check().map_err(|error| error.within("rotation"))
+    }
+
     /// The core's configuration for `scenario`; the core checks it.
     pub fn estimator(&self, scenario: &Scenario) -> VehicleConfig {
         let period = scenario.period();
@@ -186,7 +194,15 @@ impl EstimatorSettings {
     }
 }
 
+/// The largest force or torque that the core takes for possible.
+const MOST: f64 = 5e5;
+
 impl GroupSettings {
+    /// What becomes a number of control periods must be one; everything else the core checks.
+    fn check(&self) -> Result<(), ParameterError> {
+        self.latency.map_or(Ok(()), |latency| check("latency", latency, 0.0..=60.0, "must be from 0 to 60 s"))
+    }
+
     fn group(&self, default: GroupConfig, sensor: &SensorConfig, period: f64, most: f64) -> GroupConfig {
         let tuning = |lambda: Option<f64>, q: Option<f64>, default: Tuning| {
             let lambda_or = lambda.unwrap_or(default.lambda);
@@ -210,7 +226,7 @@ impl GroupSettings {
             max_relative_sd: self.max_relative_sd.unwrap_or(default.max_relative_sd),
             parameter_settle: self.parameter_settle.unwrap_or(default.parameter_settle),
             state_settle: self.state_settle.unwrap_or(default.state_settle),
-            input_limit: self.input_limit.unwrap_or(most),
+            input_limit: self.input_limit.unwrap_or(most.min(MOST)),
             ..default
         }
     }

@@ -9,7 +9,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ReplayError {
     /// The core refuses a parameter.
-    #[error("{}: {}", subject(*.cause, .options), explain(*.cause, *.period))]
+    #[error("{}: {}", subject(*.cause, .options), explain(*.cause, .options, *.period))]
     Parameter {
         /// What the core says.
         cause: ConfigError,
@@ -22,7 +22,7 @@ pub enum ReplayError {
     #[error("--gravity {0}: not a finite number")]
     Gravity(f64),
     /// The estimator of a group of axes starts where all of them are measured, and there is no such row.
-    #[error("no row holds a position in every one of the columns {columns}")]
+    #[error("no row holds a position of at most 1e6 in magnitude in every one of the columns {columns}")]
     NeverMeasured {
         /// The columns, separated by commas.
         columns: String,
@@ -61,7 +61,7 @@ fn option(cause: ConfigError, options: &ReplayOptions) -> Option<(&'static str, 
     }
 }
 
-fn explain(cause: ConfigError, period: f64) -> String {
+fn explain(cause: ConfigError, options: &ReplayOptions, period: f64) -> String {
     match cause {
         ConfigError::NonFinite(_) => "not a finite number".to_owned(),
         ConfigError::NonPositive(_) => "must be positive".to_owned(),
@@ -72,12 +72,31 @@ fn explain(cause: ConfigError, period: f64) -> String {
             format!("too small for the time step of {period} s: the product of the two must be at least 1e-6")
         }
         ConfigError::OutOfRange("memory.tau") => {
-            format!("must be at least one step of the identifier ({period} s, or a block of them at a high rate)")
+            format!("must be at least one step of what is read out, {} s", rounded_up(options.step(period)))
         }
         ConfigError::OutOfRange("drift") => "must not exceed 1e6 in magnitude".to_owned(),
         ConfigError::OutOfRange("period" | "substeps" | "block") => {
             format!("a time step of {period} s is outside the range 1e-6 s to 1000 s")
         }
         other => other.to_string(),
+    }
+}
+
+/// To four digits: a number that is at least this one.
+fn rounded_up(value: f64) -> f64 {
+    let decimals = 3 - value.log10().floor() as i32;
+    let digits = (value * 10_f64.powi(decimals) * (1.0 - 1e-9)).ceil();
+    format!("{digits}e{}", -decimals).parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_up() {
+        for (value, expected) in [(0.01, 0.01), (0.049425, 0.04943), (12345.0, 12350.0), (0.1 + 0.2, 0.3)] {
+            assert_eq!(rounded_up(value), expected);
+        }
     }
 }

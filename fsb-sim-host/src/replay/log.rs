@@ -40,6 +40,7 @@ use clock::Clock;
 use error::Place;
 use header::{AxisHeader, Header};
 
+use super::lines::Lines;
 use crate::twin::Moments;
 
 /// The fewest samples a log may have.
@@ -186,17 +187,16 @@ fn parse(file: &str, bytes: &[u8]) -> Result<AxisLog, LogError> {
 /// The rows of a CSV text, each with the line it starts on.
 struct Rows<'a> {
     file: &'a str,
-    bytes: &'a [u8],
     reader: csv::Reader<&'a [u8]>,
-    /// `line` is the one that the byte at `counted` is on.
+    lines: Lines<'a>,
+    /// The one that the last row begins on.
     line: usize,
-    counted: usize,
 }
 
 impl<'a> Rows<'a> {
     fn new(file: &'a str, bytes: &'a [u8]) -> Self {
         let reader = ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(bytes);
-        Self { file, bytes, reader, line: 1, counted: 0 }
+        Self { file, reader, lines: Lines::of_text(bytes), line: 1 }
     }
 
     fn next(&mut self) -> Result<Option<(Place<'a>, ByteRecord)>, LogError> {
@@ -208,29 +208,12 @@ impl<'a> Rows<'a> {
         if !found {
             return Ok(None);
         }
-        // The position that comes with a record lies before the rest of a CRLF and before empty lines.
-        let mut begin = record.position().map_or(0, |position| position.byte() as usize);
-        while matches!(self.bytes.get(begin), Some(b'\r' | b'\n')) {
-            begin += 1;
-        }
-        self.count_to(begin);
+        self.line = self.lines.of(&record);
         Ok(Some((Place { file: self.file, line: self.line }, record)))
     }
 
     /// The line of the last row.
     fn last_line(&self) -> usize {
         self.line
-    }
-
-    fn count_to(&mut self, end: usize) {
-        for at in self.counted..end {
-            let after_return = at > 0 && self.bytes[at - 1] == b'\r';
-            match self.bytes[at] {
-                b'\n' if !after_return => self.line += 1,
-                b'\r' => self.line += 1,
-                _ => {}
-            }
-        }
-        self.counted = end;
     }
 }

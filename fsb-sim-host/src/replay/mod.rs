@@ -12,6 +12,7 @@
 //! | file | what |
 //! |---|---|
 //! | `log` | the axis log and its reader |
+//! | `lines` | the line of a file that a row begins on |
 //! | `flight` | positions, attitudes and inputs at time stamps of their own, brought to the core |
 //! | `pair` | two CSV files as a flight |
 //! | `ulog` | a ULog file as a flight |
@@ -41,6 +42,7 @@ pub mod flight;
 pub mod identified;
 mod informed;
 pub mod lag;
+mod lines;
 pub mod log;
 pub mod options;
 pub mod overview;

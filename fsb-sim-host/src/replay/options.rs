@@ -59,6 +59,14 @@ impl ReplayOptions {
         if fastest > 0.0 { (FINEST_STEP / fastest).round().clamp(1.0, 65_535.0) as u32 } else { 1 }
     }
 
+    /// The longest step \[s\] of what the log, of the time step `period` \[s\], is read out with: a block of samples, and a row of the
+    /// regression, which comes every 0.1/λ or 0.1/q, the shorter one.
+    pub(super) fn step(&self, period: f64) -> f64 {
+        let fastest = self.identifier.lambda.max(self.identifier.q) * period;
+        let row = if self.identify.is_some() { (0.1 / fastest).floor() } else { 1.0 };
+        f64::from(self.block(period)).max(row) * period
+    }
+
     /// The core's configuration for axes with the drifts `drift` in a log of the time step `period` \[s\].
     pub(super) fn config<const N: usize, const P: usize>(&self, period: f64, drift: [f64; N]) -> EstimatorConfig<N, P> {
         EstimatorConfig {

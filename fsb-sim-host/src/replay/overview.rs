@@ -103,7 +103,10 @@ pub fn invalid(result: &ReplayResult, unit: ThrustUnit) -> Vec<String> {
 /// The status in more words.
 fn reason(status: ParameterStatus) -> &'static str {
     match status {
-        ParameterStatus::Unexcited => " (the input has been zero)",
+        ParameterStatus::Settling => " (the log is too short for this λ)",
+        ParameterStatus::Unexcited => {
+            " (no input that tells anything: zero, beyond 1e6, or in a log too short for this λ)"
+        }
         ParameterStatus::Uncertain => " (the standard deviation of k is above 5 % of k, or the log too short to tell)",
         ParameterStatus::BelowRange => " (k is negative, or below 1e-6)",
         ParameterStatus::AboveRange => " (k is above 1e9)",

@@ -99,7 +99,9 @@ impl Columns {
     fn take(&mut self, file: &str, prefix: &str, table: &toml::Table) -> Result<(), FlightError> {
         for (key, value) in table {
             match value {
-                toml::Value::Table(inner) if prefix.is_empty() => self.take(file, key, inner)?,
+                toml::Value::Table(inner) if prefix.is_empty() && ["motion", "input"].contains(&key.as_str()) => {
+                    self.take(file, key, inner)?;
+                }
                 toml::Value::String(header) => {
                     let whole = format!("{prefix}.{key}");
                     let role = if ROLES.iter().any(|(role, _)| *role == whole) { &whole } else { key };

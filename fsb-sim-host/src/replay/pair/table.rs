@@ -1,6 +1,7 @@
 //! A CSV file as columns of numbers, each cell's place known.
 
 use crate::replay::flight::FlightError;
+use crate::replay::lines::Lines;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 use std::fs;
 use std::io::ErrorKind;
@@ -10,8 +11,14 @@ use std::path::Path;
 pub struct Table {
     file: String,
     headers: Vec<String>,
+    /// The line of the headers.
+    line: usize,
     rows: Vec<(usize, ByteRecord)>,
 }
+
+/// What a cell may hold, for messages.
+const MAY_BE_EMPTY: &str = "a finite number or an empty cell";
+const MUST_BE_THERE: &str = "a finite number";
 
 /// The numbers of a column; `None` where the cell is empty.
 pub type Numbers = Vec<Option<f64>>;
@@ -25,17 +32,16 @@ impl Table {
         })?;
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
         let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(text);
-        let mut rows = Vec::new();
+        let (mut rows, mut lines) = (Vec::new(), Lines::of_text(text));
         for record in reader.byte_records() {
             let record =
                 record.map_err(|error| FlightError::NotReadable { file: file.clone(), source: error.into() })?;
-            let line = record.position().map_or(0, |position| position.line() as usize);
-            rows.push((line, record));
+            rows.push((lines.of(&record), record));
         }
         if rows.is_empty() {
             return Err(FlightError::Empty { file });
         }
-        let (_, header) = rows.remove(0);
+        let (line, header) = rows.remove(0);
         let headers: Vec<String> = header.iter().map(shown).collect();
         for (line, row) in &rows {
             if row.len() != headers.len() {
@@ -43,7 +49,7 @@ impl Table {
                 return Err(FlightError::FieldCount { file, line: *line, found, expected });
             }
         }
-        Ok(Self { file, headers, rows })
+        Ok(Self { file, headers, line, rows })
     }
 
     pub fn file(&self) -> &str {
@@ -51,36 +57,46 @@ impl Table {
     }
 
     pub fn line(&self, row: usize) -> usize {
-        self.rows.get(row).map_or(1, |(line, _)| *line)
+        self.rows.get(row).map_or(self.line, |(line, _)| *line)
     }
 
     /// The column of this header, if the file has it.
     pub fn optional(&self, header: &str) -> Result<Option<Numbers>, FlightError> {
-        let mut found = (0..self.headers.len()).filter(|&index| self.headers[index] == header);
-        let (Some(index), again) = (found.next(), found.next()) else { return Ok(None) };
-        if again.is_some() {
-            return Err(FlightError::DuplicateColumn { file: self.file.clone(), line: 1, header: header.to_owned() });
-        }
-        let cells = self.rows.iter().map(|(line, row)| self.cell(*line, header, row.get(index).unwrap_or_default()));
+        let Some(index) = self.place(header)? else { return Ok(None) };
+        let cells = self.rows.iter().map(|(line, row)| self.cell(*line, header, row.get(index), MAY_BE_EMPTY));
         cells.collect::<Result<Numbers, _>>().map(Some)
     }
 
     /// The column of this header; `role` is what it is for.
     pub fn column(&self, role: &'static str, header: &str) -> Result<Numbers, FlightError> {
-        self.optional(header)?.ok_or_else(|| FlightError::NoColumn {
-            file: self.file.clone(),
-            line: 1,
-            role,
-            header: header.to_owned(),
-            found: self.headers.join(", "),
-        })
+        self.optional(header)?.ok_or_else(|| self.without(role, header))
     }
 
     /// The column of this header, a number in every cell.
     pub fn full(&self, role: &'static str, header: &str) -> Result<Vec<f64>, FlightError> {
-        let column = self.column(role, header)?;
-        let numbers = column.into_iter().enumerate();
-        numbers.map(|(row, cell)| cell.ok_or_else(|| self.refuse(row, header, "", "a number"))).collect()
+        let index = self.place(header)?.ok_or_else(|| self.without(role, header))?;
+        let number = |(row, (line, cells)): (usize, &(usize, ByteRecord))| {
+            let cell = cells.get(index);
+            let found = self.cell(*line, header, cell, MUST_BE_THERE)?;
+            found.ok_or_else(|| self.refuse(row, header, &shown(cell.unwrap_or_default()), MUST_BE_THERE))
+        };
+        self.rows.iter().enumerate().map(number).collect()
+    }
+
+    /// Where the column of this header is, if the file has it.
+    fn place(&self, header: &str) -> Result<Option<usize>, FlightError> {
+        let mut found = (0..self.headers.len()).filter(|&index| self.headers[index] == header);
+        let (place, again) = (found.next(), found.next());
+        if again.is_some() {
+            let (file, line, header) = (self.file.clone(), self.line, header.to_owned());
+            return Err(FlightError::DuplicateColumn { file, line, header });
+        }
+        Ok(place)
+    }
+
+    fn without(&self, role: &'static str, header: &str) -> FlightError {
+        let (file, line, header, found) = (self.file.clone(), self.line, header.to_owned(), self.headers.join(", "));
+        FlightError::NoColumn { file, line, role, header, found }
     }
 
     /// A rising time. Rows at the very same time as the one before are left out: the first of each is kept.
@@ -108,7 +124,14 @@ impl Table {
         FlightError::Cell { file, line: self.line(row), column, found, expected }
     }
 
-    fn cell(&self, line: usize, header: &str, field: &[u8]) -> Result<Option<f64>, FlightError> {
+    fn cell(
+        &self,
+        line: usize,
+        header: &str,
+        field: Option<&[u8]>,
+        expected: &'static str,
+    ) -> Result<Option<f64>, FlightError> {
+        let field = field.unwrap_or_default();
         if field.is_empty() {
             return Ok(None);
         }
@@ -121,7 +144,7 @@ impl Table {
                 line,
                 column: header.to_owned(),
                 found: shown(field),
-                expected: "a finite number or an empty cell",
+                expected,
             }),
         }
     }
