@@ -92,6 +92,11 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         }
     }
 
+    /// Blocks that the identifier has gone through in its window.
+    pub(crate) const fn identifier_blocks(&self) -> u32 {
+        self.frame.progress.identifier.blocks
+    }
+
     /// The identifier's last step.
     pub(crate) fn identifier_view(&self) -> IdentifierView<N> {
         let Frame { common, progress, axes } = &self.frame;

@@ -23,9 +23,10 @@ impl Parts<'_> {
     pub fn repair_positions(&mut self, y: &mut [f32], m1: f32) {
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.all_measured = true;
+        // Back from a gap that was too long for the window.
         let (limit, longest) = (common.position_limit, common.longest_gap());
         let back = |axis: &Axis, y: f32| axis.present && u32::from(axis.gap) >= longest && y.abs() <= limit;
-        let reopen = axes.iter().zip(y.iter()).any(|(axis, y)| back(axis, *y));
+        let reopen = progress.identifier.blocks > 0 && axes.iter().zip(y.iter()).any(|(axis, y)| back(axis, *y));
         for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {
             let parameter = self.parameters.get_mut(parameter_of(index, self.parameters));
             if y.abs() <= common.position_limit {

@@ -59,8 +59,10 @@ impl Gate {
     pub fn judge(&mut self, y: f32, expected: Option<f32>, limit: f32, settled: bool, design: &GuardDesign) -> Verdict {
         let verdict = self.verdict(y, expected, limit, settled, design);
         if verdict.is_used() {
-            (self.gap, self.blind) = (0, 0);
-            self.begin_run();
+            if self.gap > 0 {
+                (self.gap, self.blind) = (0, 0);
+                self.begin_run();
+            }
         } else if verdict == Verdict::Improbable {
             self.gap = self.gap.saturating_add(1);
         } else {

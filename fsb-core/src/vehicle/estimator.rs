@@ -217,7 +217,8 @@ impl<const D: usize> VehicleEstimator<D> {
     #[inline(never)]
     fn look_back(&mut self) {
         let Some(retroactive) = &mut self.retroactive else { return };
-        if self.rotation.learning() != Learning::On {
+        retroactive.sample();
+        if !retroactive.is_behind(self.rotation.identifier_blocks()) || self.rotation.learning() != Learning::On {
             return;
         }
         let Some(guesses) = all(self.rotation.prediction_parameters()) else { return };
@@ -225,7 +226,7 @@ impl<const D: usize> VehicleEstimator<D> {
         for (k, rough) in k.iter_mut().zip(self.rotation.rough_parameters()) {
             *k = k.or(rough);
         }
-        if let Some(shifts) = retroactive.measured(&self.rotation.identifier_view(), &k, &guesses) {
+        if let Some(shifts) = retroactive.step(&self.rotation.identifier_view(), &k, &guesses) {
             for (axis, shift) in shifts.iter().enumerate() {
                 self.rotation.shift_input(axis, shift.input, shift.denominator, shift.doubt);
             }

@@ -123,25 +123,33 @@ impl Retroactive {
         }
     }
 
-    /// After a measurement instant: what has to change. `k` are the newest 1/I, where there are any, and `guesses` those
-    /// from before. Nothing, where the identifier has not stepped.
-    /// Cost: about 180 operations per step of the identifier.
-    pub fn measured(
+    /// After a measurement instant.
+    pub fn sample(&mut self) {
+        for axis in &mut self.axes {
+            axis.own.sample();
+            axis.used.sample();
+        }
+    }
+
+    /// Whether the identifier, which has come to so many blocks, has stepped or begun anew since the last [`step`](Self::step).
+    pub fn is_behind(&self, blocks: u32) -> bool {
+        blocks != self.blocks
+    }
+
+    /// After a step of the identifier: what has to change. `k` are the newest 1/I, where there are any, and `guesses` those
+    /// from before. Nothing, where it has only begun anew. Cost: about 180 operations.
+    pub fn step(
         &mut self,
         view: &IdentifierView<3>,
         k: &[Option<Parameter>; 3],
         guesses: &[f32; 3],
     ) -> Option<[Shift; 3]> {
-        for axis in &mut self.axes {
-            axis.own.sample();
-            axis.used.sample();
-        }
         let mut shifts = [Shift::default(); 3];
         if view.blocks < self.blocks {
             self.begin_window(view);
-        }
-        if view.blocks == self.blocks {
-            return None;
+            if view.blocks == 0 {
+                return None;
+            }
         }
         self.blocks = view.blocks;
         let (differences, variances) = differences_known(k, guesses);

@@ -7,6 +7,9 @@ impl<const D: usize> VehicleEstimator<D> {
     /// Angles that have turned far are taken from a later origin: they would lose digits, and in the end their limit.
     pub(super) fn unwind(&mut self) {
         let far = self.far;
+        if self.angles.angles().iter().map(|angle| angle.abs()).sum::<f32>() <= far {
+            return;
+        }
         let by = self.angles.angles().map(|angle| {
             if angle > far {
                 -far
