@@ -128,3 +128,19 @@ fn no_stage_stalls_at_eight_kilohertz() {
     println!("k off by {k:.1e}, D by {:.1e}, d by {:.1e}", worst[0], worst[1]);
     assert!(k.abs() < 2e-7 && worst[0] < 1e-6 && worst[1] < 5e-6);
 }
+
+/// A drag that is more than the observer's model holds for, |D| T = 0.35, is not handed out, and not put down to the mass either.
+#[test]
+fn a_drag_too_large_to_hand_out() {
+    for seed in 1..=5 {
+        let flight = DragFlight { period: 0.1, drag: [3.5; 3], noise: 1e-3, ..FLIGHT };
+        let config = DragConfig { drift: DRIFT, ..DragConfig::new(flight.period) };
+        let mut estimator = DragEstimator::new(&config).expect("a valid configuration");
+        fly(&mut estimator, &flight, 60.0, seed);
+        let k = estimator.parameter();
+        println!("seed {seed}: {:?} {k:?} {:?}", estimator.terms().map(|terms| terms.drag), estimator.parameter_status());
+        let wrong = k.map_or(0.0, |k| (f64::from(k.value) / flight.k - 1.0).abs());
+        assert!(k.is_some() && wrong < 0.03, "seed {seed}: k off by {wrong}");
+        assert!(estimator.terms().iter().all(|terms| terms.drag.value().is_none()), "seed {seed}");
+    }
+}

@@ -77,8 +77,8 @@ impl Axis {
         while kept.count() > 0.0 {
             let (drag, disturbance) = self.terms(k);
             let drag_excess = match kept.drag {
-                true if is_slight(&drag, common) => excess(&drag, common.drag_variance, self.used.drag),
-                true => f32::MAX,
+                // Also where it is more than is handed out: left out it would be taken for mass.
+                true => excess(&drag, common.drag_variance, self.used.drag),
                 false => 0.0,
             };
             let disturbance_excess = match kept.disturbance {
