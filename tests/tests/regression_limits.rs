@@ -138,7 +138,11 @@ fn a_drag_too_large_to_hand_out() {
         let mut estimator = DragEstimator::new(&config).expect("a valid configuration");
         fly(&mut estimator, &flight, 60.0, seed);
         let k = estimator.parameter();
-        println!("seed {seed}: {:?} {k:?} {:?}", estimator.terms().map(|terms| terms.drag), estimator.parameter_status());
+        println!(
+            "seed {seed}: {:?} {k:?} {:?}",
+            estimator.terms().map(|terms| terms.drag),
+            estimator.parameter_status()
+        );
         let wrong = k.map_or(0.0, |k| (f64::from(k.value) / flight.k - 1.0).abs());
         assert!(k.is_some() && wrong < 0.03, "seed {seed}: k off by {wrong}");
         assert!(estimator.terms().iter().all(|terms| terms.drag.value().is_none()), "seed {seed}");

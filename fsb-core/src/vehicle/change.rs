@@ -49,6 +49,8 @@ pub(super) struct Detector {
     /// At the instant, and over the last ones.
     statistics: [Statistic; 2],
     instants: u32,
+    /// Instants in succession at which a parameter was contradicted.
+    contradicted: u32,
     /// The last instant was measured.
     measured: bool,
 }
@@ -90,6 +92,7 @@ impl Detector {
             usual: [0.0; 3],
             statistics: [Statistic::new(0.0), Statistic::new(libm::exp(-0.1 * lambda * period))],
             instants: 0,
+            contradicted: 0,
             measured: false,
         })
     }
@@ -100,7 +103,7 @@ impl Detector {
         for statistic in &mut self.statistics {
             statistic.reset();
         }
-        self.instants = 0;
+        (self.instants, self.contradicted) = (0, 0);
     }
 
     /// The observer has begun anew.
@@ -110,9 +113,10 @@ impl Detector {
         self.measured = false;
     }
 
-    /// After a measurement instant; `known` is k of each axis, where it is identified. Whether a parameter has changed.
-    /// Cost: about 130 operations.
-    pub fn observe(&mut self, view: &InnovationView<3>, known: &[Option<f32>; 3]) -> bool {
+    /// After a measurement instant; `known` is k of each axis, where it is identified, and `contradicted` tells that the motion
+    /// contradicts one. Whether a parameter has changed: with noise it may be contradicted before the innovations have shown
+    /// what k is now, and would be for as long as there is more in its sums of before than of since. Cost: about 130 operations.
+    pub fn observe(&mut self, view: &InnovationView<3>, known: &[Option<f32>; 3], contradicted: bool) -> bool {
         for (response, input) in self.responses.iter_mut().zip(&view.moments) {
             response.phi = response.e + response.w + input.j2;
             let correction = if view.measured { view.t_l2 * response.phi } else { 0.0 };
@@ -142,7 +146,8 @@ impl Detector {
         };
         let [now, late] = &mut self.statistics;
         let streak = now.add(&terms, known, &limits).max(late.add(&terms, known, &limits));
-        streak >= self.enough
+        self.contradicted = if contradicted && limits.open { self.contradicted.saturating_add(1) } else { 0 };
+        streak >= self.enough || self.contradicted >= self.enough
     }
 
     /// Whether a gap, of some 3/λ, has let φ grow so far that its mean would be one of the gap from then on, and what comes
@@ -242,6 +247,7 @@ impl Stored for Detector {
         self.usual.pass(archive);
         self.statistics.pass(archive);
         self.instants.pass(archive);
+        self.contradicted.pass(archive);
         self.measured.pass(archive);
     }
 }

@@ -77,7 +77,8 @@ pub struct GroupConfig {
     pub input_limit: f64,
 }
 
-/// When a change of a parameter k (1/m, 1/I) is taken as such, and its group identified anew.
+/// When a change of a parameter k (1/m, 1/I) is taken as such, and its group identified anew; so is one with a parameter that is
+/// contradicted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ChangeRule {

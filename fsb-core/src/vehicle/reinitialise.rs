@@ -52,7 +52,8 @@ impl<const D: usize> VehicleEstimator<D> {
     pub(super) fn mass_has_changed(&mut self) -> bool {
         let Some(detector) = &mut self.translation_change else { return false };
         let [k] = identified(&self.translation);
-        let changed = detector.observe(&self.translation.innovation_view(), &[k, None, None]);
+        let changed =
+            detector.observe(&self.translation.innovation_view(), &[k, None, None], is_contradicted(&self.translation));
         if changed {
             self.reinitialise(Group::Translation);
         }
@@ -62,12 +63,21 @@ impl<const D: usize> VehicleEstimator<D> {
     /// Looks for a change after a measurement instant of the group, and acts on it.
     pub(super) fn inertia_has_changed(&mut self) -> bool {
         let Some(detector) = &mut self.rotation_change else { return false };
-        let changed = detector.observe(&self.rotation.innovation_view(), &identified(&self.rotation));
+        let changed = detector.observe(
+            &self.rotation.innovation_view(),
+            &identified(&self.rotation),
+            is_contradicted(&self.rotation),
+        );
         if changed {
             self.reinitialise(Group::Rotation);
         }
         changed
     }
+}
+
+/// Whether the motion contradicts a parameter that is being learned.
+fn is_contradicted<const P: usize>(estimator: &Estimator<3, P>) -> bool {
+    estimator.learning() == Learning::On && estimator.parameter_status().contains(&ParameterStatus::Contradicted)
 }
 
 /// k of the parameters that are valid now, not held. None while nothing is learned: they are to stay as they are, and in contact

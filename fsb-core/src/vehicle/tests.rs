@@ -87,7 +87,7 @@ fn alarm_from(at: u32, factor: f64, axes: [bool; 3], pooled: bool, gaps: bool, v
         let k = axes.map(|changes| f64::from(K) * if changes && n >= at { factor } else { 1.0 });
         let measured = !(gaps && n % 5 == 3);
         let view = scene.step(scene.force(), k, measured, variance);
-        if detector.observe(&view, &[Some(K); 3]) {
+        if detector.observe(&view, &[Some(K); 3], false) {
             assert!(n >= at, "before anything has changed: {n}");
             return Some(n - at);
         }
@@ -137,13 +137,13 @@ fn nothing_is_told_of_what_is_not_known() {
     let (mut scene, mut detector) = (Scene::new(), detector(true));
     for _ in 0..600 {
         let view = scene.step(scene.force(), [f64::from(2.0 * K); 3], true, 1e-13);
-        assert!(!detector.observe(&view, &[None; 3]));
+        assert!(!detector.observe(&view, &[None; 3], false));
     }
     let (mut scene, mut detector) = (Scene::new(), self::detector(true));
     for _ in 0..600 {
         let mut view = scene.step(scene.force(), [f64::from(2.0 * K); 3], true, 1e-13);
         view.noise_variances = [None; 3];
-        assert!(!detector.observe(&view, &[Some(K); 3]));
+        assert!(!detector.observe(&view, &[Some(K); 3], false));
     }
 }
 
@@ -156,7 +156,7 @@ fn nothing_is_decided_for_a_second() {
         let told = |scene: &mut Scene, detector: &mut Detector| {
             (0..400).find(|_| {
                 let view = scene.step(scene.force(), [f64::from(1.5 * K); 3], true, 1e-13);
-                detector.observe(&view, &[Some(K); 3])
+                detector.observe(&view, &[Some(K); 3], false)
             })
         };
         let first = told(&mut scene, &mut detector);
@@ -177,6 +177,6 @@ fn a_small_input_tells_nothing() {
         // Once the response to the large input is gone, something pulls like a k three times as large.
         let k = if n >= 700 { 3.0 } else { 1.0 };
         let view = scene.step(force, [k * f64::from(K); 3], true, 1e-13);
-        assert!(!detector.observe(&view, &[Some(K); 3]), "{n}");
+        assert!(!detector.observe(&view, &[Some(K); 3], false), "{n}");
     }
 }
