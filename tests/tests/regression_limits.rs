@@ -148,3 +148,28 @@ fn a_drag_too_large_to_hand_out() {
         assert!(estimator.terms().iter().all(|terms| terms.drag.value().is_none()), "seed {seed}");
     }
 }
+
+/// A second and more without measurements while hardly anything is known yet: what was predicted meanwhile is not learned from.
+#[test]
+fn nothing_is_learned_from_a_gap() {
+    for (begin, gap) in [(2.0, 1.0), (3.0, 1.0), (3.0, 1.8), (4.0, 1.8)] {
+        for seed in 1..=5 {
+            let flight = DragFlight { noise: 1e-3, ..FLIGHT };
+            let config = DragConfig { drift: DRIFT, ..DragConfig::new(flight.period) };
+            let mut estimator = DragEstimator::new(&config).expect("a valid configuration");
+            let (mut flyer, mut rng) = (Flyer::new(&flight), Pcg64::seed_from_u64(seed));
+            for _ in 0..2000 {
+                let instant = flyer.step(&flight, &mut rng);
+                let came = instant.t < begin || instant.t >= begin + gap;
+                estimator.measure(&instant.measured.map(|y| came.then_some(y))).expect("in step");
+                estimator.apply(&instant.force);
+            }
+            let k = estimator.parameter().expect("valid");
+            let (off, sd) = ((f64::from(k.value) - flight.k).abs(), f64::from(k.sd()));
+            assert!(
+                off < 1e-3 * flight.k && off < 5.0 * sd,
+                "{gap} s from {begin} s, seed {seed}: off by {off}, sd {sd}"
+            );
+        }
+    }
+}

@@ -145,8 +145,6 @@ impl Shape {
 impl Common {
     /// No measurement is within this limit.
     pub const NOTHING: f32 = -1.0;
-    /// Gaps up to this, in measurements, are never too long.
-    const SHORT_GAP: u32 = 32;
 
     /// Nothing.
     pub const BLANK: Self = Self {
@@ -193,12 +191,6 @@ impl Common {
         observer_tuning: Tuning { lambda: 0.0, q: 0.0 },
         measurement_period: 0.0,
     };
-
-    /// So many measurements replaced in a row are too many for the identifier's window: 1/λ of the observer, whose memory that is,
-    /// and no fewer than come about by chance where half of all are missing.
-    pub fn longest_gap(&self) -> u32 {
-        (self.late_settle / 8).max(Self::SHORT_GAP)
-    }
 
     /// Where `checks` find something wrong the constants are of no use; there is no panic, whatever the values.
     #[inline(never)]

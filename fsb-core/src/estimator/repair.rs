@@ -3,6 +3,7 @@
 use super::anew::Known;
 use super::axis::{Axis, Clocks, Source};
 use super::parts::{Frame, Parts, parameter_of};
+use crate::identifier::longest_gap;
 
 impl Parts<'_> {
     pub fn count_missing(&mut self, y: &[f32]) {
@@ -24,7 +25,7 @@ impl Parts<'_> {
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.all_measured = true;
         // Back from a gap that was too long for the window.
-        let (limit, longest) = (common.position_limit, common.longest_gap());
+        let (limit, longest) = (common.position_limit, longest_gap(common.late_settle));
         let back = |axis: &Axis, y: f32| axis.present && u32::from(axis.gap) >= longest && y.abs() <= limit;
         let reopen = progress.identifier.blocks > 0 && axes.iter().zip(y.iter()).any(|(axis, y)| back(axis, *y));
         for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {

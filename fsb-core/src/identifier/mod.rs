@@ -15,12 +15,14 @@
 //! | `cascade` | the six states (38) of one axis |
 //! | `unit` | the response ẑu to a unit input, for the known drift |
 //! | `block` | the same identity for means over M samples |
+//! | `gap` | how long gaps in the measurements may be |
 //! | `free_state` | position and velocity out of the identifier's own states |
 
 mod block;
 mod cascade;
 mod coefficients;
 mod free_state;
+mod gap;
 #[cfg(test)]
 mod tests;
 mod unit;
@@ -32,4 +34,5 @@ pub(crate) use coefficients::KEEP_NORMAL;
 pub use coefficients::{Coefficients, IdentifierDesign};
 pub use free_state::FreeState;
 pub(crate) use free_state::{Completed, Hypothesis};
+pub(crate) use gap::longest_gap;
 pub use unit::UnitChain;

@@ -6,7 +6,7 @@ use super::model::{DragModel, DragObserver};
 use super::reduced::{Estimate, Reduced};
 use super::triangle::{Row, Triangle};
 use super::velocity::VelocityCascade;
-use crate::identifier::{BlockMeans, Cascade};
+use crate::identifier::{BlockMeans, Cascade, longest_gap};
 use crate::moments::InputMoments;
 
 /// What predicts this axis at present.
@@ -63,6 +63,8 @@ pub(super) struct Axis {
     pub settled_at: u32,
     /// Measurements replaced since the last row.
     missed: u32,
+    /// Measurements replaced since the last one that came.
+    gap: u32,
     pub source: Source,
     /// Measured at least once, and not lost since.
     pub measured: bool,
@@ -85,9 +87,21 @@ impl Axis {
         self.settled_at = settle;
     }
 
+    /// Whether the measurement `y` is the first one after a gap that is too long for the window.
+    pub fn is_back(&self, y: Option<f32>, common: &Common) -> bool {
+        let came = y.is_some_and(|y| y.abs() <= common.position_limit);
+        came && self.present && self.gap >= longest_gap(common.late_settle)
+    }
+
+    /// Forgets what the cascades hold; what was learned stays.
+    pub fn begin_window(&mut self) {
+        (self.block, self.cascade, self.velocity) = Default::default();
+    }
+
     /// What is measured, or what stands in for it; zero for an axis that is lost. Returns whether it was measured.
     pub fn repair(&mut self, y: &mut f32, m1: f32, clock: &Clock, common: &Common) -> bool {
         if y.abs() <= common.position_limit {
+            self.gap = 0;
             if !self.measured {
                 self.measured = true;
                 self.observer.start(*y);
@@ -96,6 +110,7 @@ impl Axis {
             return true;
         }
         self.missed = self.missed.saturating_add(1);
+        self.gap = self.gap.saturating_add(1);
         let predicted = self.observer.predict(self.moments, &self.model, m1);
         if self.measured && predicted.abs() <= common.position_limit {
             *y = predicted;

@@ -46,6 +46,13 @@ impl Clock {
         }
     }
 
+    /// The identifier's window begins anew with the present measurement.
+    pub fn begin_window(&mut self) {
+        self.window = Window::START;
+        self.unit = UnitChain::default();
+        self.settled = false;
+    }
+
     /// To the next measurement: its gains.
     pub fn advance(&mut self, common: &Common) {
         self.count = self.count.saturating_add(1);

@@ -1,6 +1,7 @@
 //! The calls of a tick: [`DragEstimator::measure`] and [`DragEstimator::apply`].
 
 use super::DragEstimator;
+use super::axis::Axis;
 use super::turns;
 use crate::estimator::OutOfStep;
 use crate::moments::InputMoments;
@@ -64,6 +65,10 @@ impl<const N: usize> DragEstimator<N> {
         let m1 = clock.gains.m1();
         if clock.started {
             clock.advance(common);
+        }
+        if axes.iter().zip(positions).any(|(axis, y)| axis.is_back(*y, common)) {
+            clock.begin_window();
+            axes.iter_mut().for_each(Axis::begin_window);
         }
         clock.weigh(common);
         for ((axis, y), index) in axes.iter_mut().zip(positions).zip(0..) {
