@@ -6,7 +6,7 @@ use super::model::{DragModel, DragObserver};
 use super::reduced::{Estimate, Reduced};
 use super::triangle::{Row, Triangle};
 use super::velocity::VelocityCascade;
-use crate::identifier::{BlockMeans, Cascade, longest_gap};
+use crate::identifier::{BlockMeans, Cascade};
 use crate::moments::InputMoments;
 
 /// What predicts this axis at present.
@@ -87,10 +87,10 @@ impl Axis {
         self.settled_at = settle;
     }
 
-    /// Whether the measurement `y` is the first one after a gap that is too long for the window.
-    pub fn is_back(&self, y: Option<f32>, common: &Common) -> bool {
-        let came = y.is_some_and(|y| y.abs() <= common.position_limit);
-        came && self.present && self.gap >= longest_gap(common.late_settle)
+    /// Whether the measurement `y` is the first one after a gap of `longest` or more, and within its `limit`.
+    #[inline(always)]
+    pub fn is_back(&self, y: Option<f32>, longest: u32, limit: f32) -> bool {
+        self.gap >= longest && self.present && y.is_some_and(|y| y.abs() <= limit)
     }
 
     /// Forgets what the cascades hold; what was learned stays.

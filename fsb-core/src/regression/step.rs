@@ -4,6 +4,7 @@ use super::DragEstimator;
 use super::axis::Axis;
 use super::turns;
 use crate::estimator::OutOfStep;
+use crate::identifier::longest_gap;
 use crate::moments::InputMoments;
 
 impl<const N: usize> DragEstimator<N> {
@@ -66,7 +67,8 @@ impl<const N: usize> DragEstimator<N> {
         if clock.started {
             clock.advance(common);
         }
-        if axes.iter().zip(positions).any(|(axis, y)| axis.is_back(*y, common)) {
+        let longest = longest_gap(common.late_settle);
+        if axes.iter().zip(positions).any(|(axis, y)| axis.is_back(*y, longest, limit)) {
             clock.begin_window();
             axes.iter_mut().for_each(Axis::begin_window);
         }
