@@ -8,9 +8,10 @@
 //! * probable: the innovation's step d = r\[n\] - r\[n-1\], in which what a wrong model adds to both cancels, within
 //!   d² <= s² V (1 + λTn)² + (floor + A₀ + A₁ m + A₂ n² + 3λT |r\[n-1\]|)²,
 //!
-//! V being the mean of d² learned so far, n the measurements not used before, m those of them that did not come at all, A₀ = a T/(eλ) what an acceleration a that the
-//! model does not know can add to an innovation from one sample to the next, A₁ = 2a T/λ and A₂ = a T²/2 what it can in a gap,
-//! the velocity having been off by 2a/λ when it began, and the last term what an innovation on its way back to zero changes by.
+//! V being the mean of d² learned so far, n the measurements not used before, m those of them that did not come at all,
+//! A₀ = a T/(eλ) what an acceleration a that the model does not know can add to an innovation from one sample to the next,
+//! A₁ = 2a T/λ and A₂ = a T²/2 what it can in a gap, the velocity having been off by 2a/λ when it began, and the last term what
+//! an innovation on its way back to zero changes by.
 //!
 //! What is not taken is counted by reason and predicted instead. Improbable measurements in a row that agree with each other
 //! are a jump of the sensor's origin: positions are moved by it, and as the plant is translation invariant, velocity and

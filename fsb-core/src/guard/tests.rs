@@ -129,7 +129,7 @@ fn what_goes_straight_is_a_push() {
     assert!(pushed(last, -20.0), "{last}");
     let [first @ .., last] = verdicts(&mut fresh(), [1.0, 1.2, 1.4, 6.0, 5.8, 5.6, 5.4], &design);
     assert!(first == [no; 6] && pushed(last, -20.0), "{first:?} {last}");
-    // A measurement that is used, or frozen, ends it.
+    // A measurement that is used ends it.
     let [.., last] = verdicts(&mut fresh(), [1.0, 1.2, 1.4, 0.0, 1.6, 1.8, 2.0], &design);
     assert_eq!(last, no);
 }
