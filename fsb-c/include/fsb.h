@@ -238,14 +238,14 @@
 // A force or a torque was not finite or beyond its limit; the one before was taken in its place.
 #define FSB_EVENT_WRENCH_REJECTED 32
 
-// The mass has changed: it is identified anew, the old one held until then.
+// The mass has changed: it is identified anew, the old one held until then, unless it was contradicted.
 #define FSB_EVENT_MASS_CHANGED 64
 
-// A moment of inertia has changed: all three are identified anew, the old ones held until then.
+// A moment of inertia has changed: all three are identified anew, the old ones held until then, unless contradicted.
 #define FSB_EVENT_INERTIA_CHANGED 128
 
-// The velocity has changed at once by more than any input explains, as in a collision: it was followed, and the mass has not
-// noticed.
+// The velocity has changed at once by more than any input explains, as in a collision: it was followed, and the mass, where it
+// was known, is identified anew, the old one held until then.
 #define FSB_EVENT_TRANSLATION_PUSHED 256
 
 // The same for the rates and the moments of inertia.

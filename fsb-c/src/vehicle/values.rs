@@ -30,12 +30,12 @@ pub const FSB_EVENT_POSITION_JUMPED: u32 = 8;
 pub const FSB_EVENT_POSITION_OUT_OF_STEP: u32 = 16;
 /// A force or a torque was not finite or beyond its limit; the one before was taken in its place.
 pub const FSB_EVENT_WRENCH_REJECTED: u32 = 32;
-/// The mass has changed: it is identified anew, the old one held until then.
+/// The mass has changed: it is identified anew, the old one held until then, unless it was contradicted.
 pub const FSB_EVENT_MASS_CHANGED: u32 = 64;
-/// A moment of inertia has changed: all three are identified anew, the old ones held until then.
+/// A moment of inertia has changed: all three are identified anew, the old ones held until then, unless contradicted.
 pub const FSB_EVENT_INERTIA_CHANGED: u32 = 128;
-/// The velocity has changed at once by more than any input explains, as in a collision: it was followed, and the mass has not
-/// noticed.
+/// The velocity has changed at once by more than any input explains, as in a collision: it was followed, and the mass, where it
+/// was known, is identified anew, the old one held until then.
 pub const FSB_EVENT_TRANSLATION_PUSHED: u32 = 256;
 /// The same for the rates and the moments of inertia.
 pub const FSB_EVENT_ROTATION_PUSHED: u32 = 512;

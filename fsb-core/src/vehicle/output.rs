@@ -65,8 +65,8 @@ pub struct Events {
     pub position_rejected: bool,
     /// The origin of the positions has jumped: they were followed, and velocity and mass have not noticed.
     pub position_jumped: bool,
-    /// The velocity has changed at once by more than any input explains, as in a collision: it was followed, and the mass has
-    /// not noticed.
+    /// The velocity has changed at once by more than any input explains, as in a collision: it was followed, and the mass, where
+    /// it was known, is identified anew, the old one held until then.
     pub translation_pushed: bool,
     /// The same for the rates and the moments of inertia.
     pub rotation_pushed: bool,
@@ -74,9 +74,9 @@ pub struct Events {
     pub position_out_of_step: bool,
     /// A force or a torque was not finite or beyond its limit; the one before was taken in its place.
     pub wrench_rejected: bool,
-    /// The mass has changed: it is identified anew, the old one held until then.
+    /// The mass has changed: it is identified anew, the old one held until then, unless it was contradicted.
     pub mass_changed: bool,
-    /// A moment of inertia has changed: all three are identified anew, the old ones held until then.
+    /// A moment of inertia has changed: all three are identified anew, the old ones held until then, unless contradicted.
     pub inertia_changed: bool,
 }
 

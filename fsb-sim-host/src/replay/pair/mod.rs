@@ -9,8 +9,6 @@
 mod columns;
 mod read;
 mod table;
-#[cfg(test)]
-mod tests;
 
 pub use columns::Columns;
 pub use read::read;
