@@ -185,7 +185,8 @@ fn print_faulty(args: &Args, config: &SoakConfig, report: &FaultReport) -> Resul
 fn check(config: &SoakConfig, faults: bool) -> Result<(), String> {
     let rates = if faults { faulty::RATES } else { 25.0..=1e5 };
     if !rates.contains(&config.rate) {
-        return Err(format!("--rate {}: must be between {} and {} Hz", config.rate, rates.start(), rates.end()));
+        let when = if faults { "with --faults it " } else { "" };
+        return Err(format!("--rate {}: {when}must be between {} and {} Hz", config.rate, rates.start(), rates.end()));
     }
     if config.hours < 1.0 / 60.0 || config.ticks() > 100_000_000_000 {
         return Err(format!("--hours {}: must be at least 1/60, and at most 1e11 ticks", config.hours));
