@@ -25,6 +25,9 @@ pub enum Refused {
         "estimator: an attitude that is {0} control periods late, and a position that is {1}; it must not be later than that"
     )]
     AttitudeLater(u32, u32),
+    /// A range from which flights draw, one end of it, and why that cannot be flown.
+    #[error("random.{0} = {1:?}: at {2}, {3}")]
+    Drawn(&'static str, [f64; 2], f64, Box<Refused>),
 }
 
 /// What the core says, with the names of a scenario in place of its own.

@@ -182,6 +182,10 @@ mod tests {
                 "random.mass = [0.0, 1.0]: must be a range [from, to], in order, from 0.001 to 1000",
             ),
             ("random.dropout=[0, 1.1]", "random.dropout = [0.0, 1.1]: must be a range"),
+            (
+                "random.position_latency=[0, 1.3]",
+                "random.position_latency = [0.0, 1.3]: at 1.3, estimator: a latency of 260 control periods; up to 256 can",
+            ),
             ("control.rotation.kp=0", "control.rotation.kp must be positive"),
             ("reference.position.kind=loop", "loop"),
         ] {
@@ -202,6 +206,46 @@ mod tests {
         assert!(of(&[]).is_ok());
         assert!(of(&["random.mass=[1, 2]"]).unwrap_err().contains("needs a first guess, estimator.mass.nominal"));
         assert!(with(&["plant.rotor.thrust_max=1e5", "plant.frame.arm=100"]).is_ok());
+    }
+
+    /// A range is refused for what its ends would be, before anything is drawn; one that can be flown is not.
+    #[test]
+    fn what_may_be_drawn_is_checked_beforehand() {
+        for (set, part) in [
+            (
+                ["estimator.mass.nominal=0.6", "random.mass=[1e-3, 1]"],
+                "random.mass = [0.001, 1.0]: at 0.001, plant.mass",
+            ),
+            (
+                ["estimator.inertia.nominal.0=50", "random.inertia=[1, 1e3]"],
+                "random.inertia = [1.0, 1000.0]: at 1000, plant.inertia",
+            ),
+            (
+                ["random.position_latency=[0.1, 0.2]", "estimator.rotation.latency=0.15"],
+                "an attitude that is 30 control periods late, and a position that is 0",
+            ),
+            (
+                [
+                    "estimator.translation.latency=0.02",
+                    "random={ position_latency = [0, 0.1], attitude_latency = [0, 0.1] }",
+                ],
+                "random.attitude_latency = [0.0, 0.1]: at 0.1, estimator: an attitude that is 20 control periods late",
+            ),
+            (
+                ["sensors.position.latency_jitter=59", "random={ position_latency = [0, 1.2] }"],
+                "random.position_latency = [0.0, 1.2]: at 1.2, sensors.position.latency_jitter",
+            ),
+        ] {
+            let message = with(&set).unwrap_err();
+            assert!(message.contains(part), "{set:?}: {message}");
+        }
+        for set in [
+            ["random.position_latency=[0, 1.28]", "random.attitude_latency=[0, 60]"],
+            ["random.position_latency=[0, 60]", "estimator.translation.latency=0"],
+            ["random.mass=[0.5, 2]", "random.inertia=[0.5, 2]"],
+        ] {
+            assert_eq!(with(&set).map(|_| ()), Ok(()), "{set:?}");
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
+use super::error::Refused;
 use super::scenario::Scenario;
 use super::settings::EstimatorSettings;
 use crate::hexarotor::ParameterError;
@@ -23,7 +24,8 @@ pub struct RandomConfig {
     pub position_noise: Option<[f64; 2]>,
     /// Standard deviation of the attitude noise [rad].
     pub attitude_noise: Option<[f64; 2]>,
-    /// Latency of the position [s]; the attitude's is drawn from zero to that of the position, or as `attitude_latency` says.
+    /// Latency of the position [s]. The attitude's is the scenario's, at most that of the position, or as `attitude_latency`
+    /// says.
     pub position_latency: Option<[f64; 2]>,
     /// Latency of the attitude [s], at most that of the position.
     pub attitude_latency: Option<[f64; 2]>,
@@ -107,18 +109,51 @@ impl Scenario {
             }
         }
         if let Some(range) = config.position_latency {
-            position.latency = self.whole_ticks(draw.between(range));
-            attitude.latency = attitude.latency.min(position.latency);
+            flight.position_is_late(draw.between(range));
         }
         if let Some([from, to]) = config.attitude_latency {
-            let most = to.min(position.latency);
-            attitude.latency = self.whole_ticks(draw.between([from.min(most), most]));
+            let most = to.min(flight.sensors.position.latency);
+            flight.sensors.attitude.latency = self.whole_ticks(draw.between([from.min(most), most]));
         }
         if let Some(range) = config.dropout {
-            position.dropout = draw.between(range);
-            attitude.dropout = draw.between(range);
+            flight.sensors.position.dropout = draw.between(range);
+            flight.sensors.attitude.dropout = draw.between(range);
         }
         flight
+    }
+
+    /// Checks the flights at both ends of what decides whether one can be flown at all.
+    pub(super) fn check_draws(&self) -> Result<(), Refused> {
+        let RandomConfig { mass, inertia, position_latency, attitude_latency, .. } = self.random;
+        let check = |name, range: Option<[f64; 2]>, put: &dyn Fn(&mut Self, f64)| {
+            let Some(range) = range else { return Ok(()) };
+            range.into_iter().try_for_each(|end| {
+                let mut flight = Self { random: RandomConfig::default(), ..self.clone() };
+                put(&mut flight, end);
+                flight.check().map_err(|refused| Refused::Drawn(name, range, end, Box::new(refused)))
+            })
+        };
+        let EstimatorSettings { mass: guess, inertia: guesses, .. } = &self.estimator;
+        check("mass", mass, &|flight, ratio| {
+            flight.plant.mass = ratio * guess.nominal.unwrap_or(flight.plant.mass);
+        })?;
+        check("inertia", inertia, &|flight, ratio| {
+            flight.plant.inertia = guesses.nominal.unwrap_or(flight.plant.inertia).map(|guess| ratio * guess);
+        })?;
+        check("position_latency", position_latency, &|flight, latency| flight.position_is_late(latency))?;
+        check("attitude_latency", attitude_latency, &|flight, latency| {
+            if let Some([_, latest]) = position_latency {
+                flight.position_is_late(latest);
+            }
+            let latest = flight.sensors.position.latency;
+            flight.sensors.attitude.latency = flight.whole_ticks(latency.min(latest));
+        })
+    }
+
+    /// The attitude is at most as late as the position.
+    fn position_is_late(&mut self, latency: f64) {
+        self.sensors.position.latency = self.whole_ticks(latency);
+        self.sensors.attitude.latency = self.sensors.attitude.latency.min(self.sensors.position.latency);
     }
 
     /// Down to whole control periods [s].

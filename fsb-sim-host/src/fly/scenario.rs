@@ -115,6 +115,7 @@ impl Scenario {
         self.random.check(&self.estimator).map_err(|error| error.within("random"))?;
         self.estimator.check().map_err(|error| error.within("estimator"))?;
         self.control.controller(self.plant.gravity)?;
-        CorePilot::new(self, 0).map(|_| ())
+        CorePilot::new(self, 0)?;
+        self.check_draws()
     }
 }
