@@ -276,3 +276,42 @@ fn the_line_at_fault_is_the_one_an_editor_shows() {
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert!(stderr.contains("motion.csv:31: column t: found `nan`, expected a finite number\n"), "{stderr}");
 }
+
+/// The command in the report is one that a shell runs, and it makes the same report.
+#[cfg(unix)]
+#[test]
+fn the_command_of_the_report_can_be_pasted() {
+    let (motion, input) = Vehicle::default().record();
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("-it's <my> motion.csv"), motion.replacen("t,x", "t,pos & $x", 1)).unwrap();
+    fs::write(directory.path().join("input.csv"), input).unwrap();
+    fs::write(directory.path().join("all names.toml"), "y = 'y'").unwrap();
+    let output = fsb(
+        directory.path(),
+        &[
+            "--motion=./-it's <my> motion.csv",
+            "--input",
+            "input.csv",
+            "--column",
+            "x=pos & $x",
+            "--columns",
+            "all names.toml",
+            "--lag",
+            "0.01",
+            "--out",
+            "out",
+        ],
+    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = fs::read_to_string(directory.path().join("out/report.html")).unwrap();
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
+    let parsed = roxmltree::Document::parse_with_options(&page, options).unwrap();
+    let shown =
+        parsed.descendants().filter_map(|node| node.text()).find(|text| text.starts_with("fsb replay")).unwrap();
+    let script = format!("fsb() {{ \"$FSB\" \"$@\"; }}; {shown} --out again");
+    let mut shell = Command::new("sh");
+    shell.arg("-c").arg(script).env("FSB", env!("CARGO_BIN_EXE_fsb")).current_dir(directory.path());
+    let pasted = shell.output().unwrap();
+    assert!(pasted.status.success(), "{shown}: {}", String::from_utf8_lossy(&pasted.stderr));
+    assert_eq!(page, fs::read_to_string(directory.path().join("again/report.html")).unwrap());
+}

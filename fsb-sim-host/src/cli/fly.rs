@@ -12,6 +12,7 @@ use fsb_sim_host::progress::Progress;
 use fsb_sim_host::report::write::write_files;
 use serde::Serialize;
 
+use super::shell::quoted;
 use super::{Failure, print_json, print_text};
 
 /// Fly the hexarotor in six degrees of freedom on what the f32 core estimates, and beside it on the truth.
@@ -54,9 +55,10 @@ impl Default for Args {
 impl Args {
     /// The command that makes the same report again; the directory does not matter to it.
     fn command(&self) -> String {
-        let mut command = format!("fsb fly --scenario {} --seed {} --runs {}", self.scenario, self.seed, self.runs);
+        let scenario = quoted(&self.scenario);
+        let mut command = format!("fsb fly --scenario {scenario} --seed {} --runs {}", self.seed, self.runs);
         for entry in &self.set {
-            command.push_str(&format!(" --set '{entry}'"));
+            command.push_str(&format!(" --set {}", quoted(entry)));
         }
         command
     }

@@ -6,6 +6,7 @@
 //! | `fly` | the hexarotor in six degrees of freedom; its `spiral` runs without arguments too |
 //! | `replay` | a recorded flight through the core |
 //! | `source` | the files of a recorded flight |
+//! | `shell` | names in a command line that is shown |
 //! | `tune` | λ, q and ε from what is known and wanted |
 //! | `efficiency` | the spread of k̂ against the Cramér-Rao bound |
 //! | `exactness` | what rounding to f32 leaves of the errors |
@@ -30,6 +31,7 @@ mod faults;
 mod fly;
 mod paper;
 mod replay;
+mod shell;
 mod soak;
 mod source;
 mod tune;

@@ -198,12 +198,12 @@ impl Args {
             let drag = if identify.drag { ",drag" } else { "" };
             ("--identify", format!("k{drag}{}", if identify.disturbance { ",disturbance" } else { "" }))
         }));
-        parameters.extend(self.source.parameters());
         let mut command = format!("fsb replay {}", self.source.command());
         for (flag, value) in &parameters {
             let number = value.split(' ').next().unwrap_or_default();
             command.push_str(&format!(" {flag} {number}"));
         }
+        parameters.extend(self.source.parameters());
         HowMade {
             command,
             version: format!("fsb {}", env!("CARGO_PKG_VERSION")),

@@ -1,6 +1,7 @@
 //! Where a recording comes from: the part of the command line that `replay` and `tune` share.
 
 use super::Failure;
+use super::shell::{quoted, quoted_file};
 use fsb_sim_host::progress::Progress;
 use fsb_sim_host::replay::flight::{Flight, FlightError, ThrustUnit};
 use fsb_sim_host::replay::lag::{self, Lag};
@@ -140,17 +141,34 @@ impl Files {
         Ok(flight)
     }
 
-    /// The files for the line that a page repeats: their names, not where they lie.
+    /// The files and how they are read, for the line that a page repeats: the names of files, not where they lie.
     pub fn command(&self) -> String {
         let name = |path: &Option<PathBuf>| {
-            path.as_deref()
-                .and_then(Path::file_name)
-                .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+            let name = path.as_deref().and_then(Path::file_name);
+            name.map_or_else(String::new, |name| quoted_file(&name.to_string_lossy()))
         };
-        match &self.log {
+        let mut command = match &self.log {
             Some(_) => name(&self.log),
             None => format!("--motion {} --input {}", name(&self.motion), name(&self.input)),
+        };
+        if self.columns.is_some() {
+            command.push_str(&format!(" --columns {}", name(&self.columns)));
         }
+        for text in &self.column {
+            command.push_str(&format!(" --column {}", quoted(text)));
+        }
+        if self.normalised {
+            command.push_str(" --normalised");
+        }
+        if let Some(full) = self.full_thrust {
+            command.push_str(&format!(" --full-thrust {full}"));
+        }
+        match self.lag {
+            Lag::Auto => command.push_str(" --lag auto"),
+            Lag::Given(lag) if lag != 0.0 => command.push_str(&format!(" --lag {lag}")),
+            Lag::Given(_) => {}
+        }
+        command
     }
 
     /// The options that differ from their defaults, with units.
