@@ -46,3 +46,35 @@ fn a_stderr_that_nobody_reads_costs_nothing() {
         assert_eq!(unheard(arguments).0.status.code(), Some(status), "{arguments:?}");
     }
 }
+
+/// A full disk is told, whatever was asked: nobody takes what is not there for an answer. A reader that has gone is no failure.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_no_success() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("log.csv"), log()).unwrap();
+    for arguments in [
+        &["--help"][..],
+        &["--version"],
+        &["help", "fly"],
+        &["fly", "--help"],
+        &["fly", "--list"],
+        &["fly", "--list", "--json"],
+        &["replay", "log.csv", "--json"],
+        &["tune", "--noise-sd", "0.01", "--rate", "100"],
+    ] {
+        let run = |stdout: Stdio| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_fsb"));
+            command.args(arguments).current_dir(directory.path()).stdout(stdout).output().unwrap()
+        };
+        let full = run(std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap().into());
+        let complaint = String::from_utf8_lossy(&full.stderr).into_owned();
+        assert_eq!(full.status.code(), Some(1), "{arguments:?}: {complaint}");
+        assert!(complaint.contains("error: No space left on device"), "{arguments:?}: {complaint}");
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        assert_eq!(run(writer.into()).status.code(), Some(0), "{arguments:?}");
+        assert_eq!(run(Stdio::piped()).status.code(), Some(0), "{arguments:?}");
+    }
+    assert_eq!(unheard(&["fly", "--sed", "1"]).0.status.code(), Some(2));
+}

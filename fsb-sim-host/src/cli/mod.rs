@@ -95,9 +95,10 @@ impl<E: Into<anyhow::Error>> From<E> for Failure {
 
 /// Runs the command of this process.
 pub fn run() -> ExitCode {
-    let done = match Cli::parse().command {
-        None => both(),
-        Some(command) => run_command(&command),
+    let done = match Cli::try_parse() {
+        Ok(Cli { command: None }) => both(),
+        Ok(Cli { command: Some(command) }) => run_command(&command),
+        Err(answer) => say(&answer),
     };
     match done {
         Ok(status) => status,
@@ -113,6 +114,15 @@ pub fn run() -> ExitCode {
             tell!("error: {error:#}");
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Help and version are results like any other; what is wrong with the arguments goes to stderr.
+fn say(answer: &clap::Error) -> Result<ExitCode, Failure> {
+    let said = answer.print().and_then(|()| io::stdout().flush());
+    match said {
+        Err(error) if !answer.use_stderr() && error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(2))),
     }
 }
 
