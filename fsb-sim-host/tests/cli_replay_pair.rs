@@ -219,6 +219,8 @@ fn bad_input_is_named_and_nothing_is_written() {
     let (motion, input) = Vehicle { seconds: 2.0, ..Vehicle::default() }.record();
     let no_quaternion = motion.replacen("qw", "q0", 1);
     let no_number = motion.replacen("\n0.0", "\n0.0x", 1);
+    let too_large = format!("{motion}1e39,0,0,0,1,0,0,0,0,0,0\n");
+    let steering = motion.replacen("\n0.0", "\n\u{1b}[2J", 1);
     let backwards = format!("{input}0.1,13,7\n");
     let short = input.lines().take(3).collect::<Vec<_>>().join("\n");
     let elsewhere: String = input
@@ -227,9 +229,11 @@ fn bad_input_is_named_and_nothing_is_written() {
         .collect();
     let last = input.lines().count() + 1;
     let turned = motion.replacen("\n", "\n0.0001,0,0,0,2,0,0,0,0,0,0\n", 1);
-    let cases: [(&str, &str, &[&str], &str); 12] = [
+    let cases: [(&str, &str, &[&str], &str); 14] = [
         (&no_quaternion, &input, &[], "motion.csv:1: no column `qw` for qw; found t, x, y, z, q0"),
         (&no_number, &input, &[], "motion.csv:2: column t: found `0.0x"),
+        (&too_large, &input, &[], "column t: found `1e39`, expected a number within f32, up to 3.4e38"),
+        (&steering, &input, &[], "motion.csv:2: column t: found `\u{fffd}[2J"),
         (&motion, &backwards, &[], &format!("input.csv:{last}: column t: found 0.1 s after")),
         (&motion, &short, &[], "input.csv: only 2 rows with an input, expected at least 4"),
         (&motion, &elsewhere, &[], "no second in common"),

@@ -145,7 +145,10 @@ fn run_command(command: &Command) -> Result<ExitCode, Failure> {
     }
 }
 
+/// What a log holds may stand in a message: nothing in it steers a terminal.
 fn print_line_to_stderr(line: fmt::Arguments<'_>) {
+    let harmless = |c: char| if c.is_control() && c != '\n' { char::REPLACEMENT_CHARACTER } else { c };
+    let line: String = line.to_string().chars().map(harmless).collect();
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 

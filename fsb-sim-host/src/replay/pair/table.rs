@@ -19,6 +19,7 @@ pub struct Table {
 /// What a cell may hold, for messages.
 const MAY_BE_EMPTY: &str = "a finite number or an empty cell";
 const MUST_BE_THERE: &str = "a finite number";
+const WITHIN_F32: &str = "a number within f32, up to 3.4e38";
 
 /// The numbers of a column; `None` where the cell is empty.
 pub type Numbers = Vec<Option<f64>>;
@@ -144,7 +145,7 @@ impl Table {
                 line,
                 column: header.to_owned(),
                 found: shown(field),
-                expected,
+                expected: if number.is_some_and(f64::is_finite) { WITHIN_F32 } else { expected },
             }),
         }
     }
