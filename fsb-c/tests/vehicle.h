@@ -59,6 +59,7 @@ static void vehicle_configurations(void) {
   VEHICLE_NAMED(change.relative, NAN, FSB_CONFIG_NOT_FINITE, "change.relative");
   VEHICLE_NAMED(translation.latency, FSB_VEHICLE_MAX_LATENCY + 1, FSB_CONFIG_OUT_OF_RANGE, "translation.latency");
   VEHICLE_NAMED(rotation.latency, 1, FSB_CONFIG_OUT_OF_RANGE, "translation.latency");
+  VEHICLE_NAMED(rotation.latency, FSB_VEHICLE_MAX_LATENCY + 1, FSB_CONFIG_OUT_OF_RANGE, "rotation.latency");
   VEHICLE_NAMED(translation.readout, 2, FSB_CONFIG_OUT_OF_RANGE, "translation.readout");
   VEHICLE_NAMED(rotation.readout, 9, FSB_CONFIG_OUT_OF_RANGE, "rotation.readout");
   VEHICLE_NAMED(translation.substeps, 0, FSB_CONFIG_ZERO, "translation.substeps");

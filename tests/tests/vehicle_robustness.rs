@@ -181,6 +181,7 @@ fn refused() {
     assert_eq!(refused(|c| c.rotation.block = 0), ConfigError::Zero("rotation.block"));
     assert_eq!(refused(|c| c.translation.latency = 11), ConfigError::OutOfRange("translation.latency"));
     assert_eq!(refused(|c| c.rotation.latency = 1), ConfigError::OutOfRange("translation.latency"));
+    assert_eq!(refused(|c| c.rotation.latency = 11), ConfigError::OutOfRange("rotation.latency"));
     assert_eq!(
         refused(|c| c.rotation.observer.lambda = 1e4),
         ConfigError::TooFastForPeriod("rotation.observer.lambda")

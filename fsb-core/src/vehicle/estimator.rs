@@ -78,7 +78,8 @@ impl<const D: usize> VehicleEstimator<D> {
         let rotation = Guarded::new(&design::rotation(config)?, &config.rotation.guard).map_err(design::of_rotation)?;
         let (late, latest) = (config.rotation.latency, config.translation.latency);
         if latest as usize > D || latest < late {
-            return Err(ConfigError::OutOfRange("translation.latency"));
+            let too_late = late as usize > D && latest as usize <= D;
+            return Err(ConfigError::OutOfRange(if too_late { "rotation.latency" } else { "translation.latency" }));
         }
         Ok(Self {
             translation,
