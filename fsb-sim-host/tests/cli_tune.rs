@@ -78,7 +78,7 @@ fn the_report_is_written_whole() {
 #[test]
 fn bad_input_is_named_and_nothing_is_written() {
     let here = tempfile::tempdir().unwrap();
-    let cases: [(&[&str], &str); 9] = [
+    let cases: [(&[&str], &str); 10] = [
         (&["--velocity-noise", "5"], "--velocity-noise 5: with this sensor"),
         (&["--delay", "0.001"], "--delay 0.001: with this sensor"),
         (&["--bandwidth", "1e-9"], "--bandwidth 0.000000001: with this sensor"),
@@ -87,6 +87,7 @@ fn bad_input_is_named_and_nothing_is_written() {
         (&["--gravity", "0", "--acceleration", "0"], "--acceleration 0 with --gravity 0"),
         (&["--delay", "0.2", "--bandwidth", "1"], "cannot be used with"),
         (&["--noise-sd", "-1"], "--noise-sd"),
+        (&["--gravity", "1e300"], "expected a number that is not negative, up to 1e6"),
         (&["--log", "none.csv"], "none.csv: no such file"),
     ];
     for (args, expected) in cases {
