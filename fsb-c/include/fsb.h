@@ -15,7 +15,8 @@
 //   Declare it as `static fsb_axis_t estimator;` or fill it with zeros: before its initialisation an object answers
 //   FSB_NOT_INITIALISED. Do not change or overwrite it in between.
 // - Every pointer is checked for NULL and alignment before anything is done. A pointer must lead to as much memory as its
-//   type (or its array length) says; nobody can check that.
+//   type (or its array length) says, and what is written to (an object, an output) must not overlap with anything else that the
+//   call is given, unless its function says that it may; nobody can check that.
 // - Functions are re-entrant. Different objects may be used at the same time by threads and interrupts; one object by one of
 //   them at a time.
 // - An output that is not valid is NaN and has a status that says why: never a stale value. An output whose pointer is good is

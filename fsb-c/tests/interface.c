@@ -163,6 +163,8 @@ static void configurations(void) {
   NAMED(noise_sd, -1.0, FSB_CONFIG_NOT_POSITIVE, "noise_sd");
   NAMED(memory_tau, 0.0, FSB_CONFIG_NOT_POSITIVE, "memory_tau");
   NAMED(memory_tau, NAN, FSB_CONFIG_NOT_FINITE, "memory_tau");
+  NAMED(max_misfit, 0.0, FSB_CONFIG_NOT_POSITIVE, "max_misfit");
+  NAMED(max_misfit, 1.5, FSB_CONFIG_OUT_OF_RANGE, "max_misfit");
   NAMED(parameter_settle, -1.0, FSB_CONFIG_NEGATIVE, "parameter_settle");
   NAMED(state_settle, NAN, FSB_CONFIG_NOT_FINITE, "state_settle");
   NAMED(position_limit, 0.0, FSB_CONFIG_NOT_POSITIVE, "position_limit");
