@@ -5,7 +5,7 @@ use fsb_core::ConfigError::{
 };
 use fsb_core::control::{TrackingConfig, TrackingController};
 use fsb_core::readout::Memory;
-use fsb_core::{Estimator, EstimatorConfig, EstimatorDesign};
+use fsb_core::{Estimator, EstimatorConfig, EstimatorDesign, Tuning};
 
 type Config = EstimatorConfig<2, 2>;
 type Set = fn(&mut Config, f64);
@@ -77,6 +77,14 @@ fn rates_and_periods() {
     ]);
     accepted(&[
         ("period", |c, x| (c.period, c.identifier.lambda, c.identifier.q) = (x, 0.1 / x, 0.1 / x), &[1e-4]),
+        (
+            "period, no blocks",
+            |c, x| {
+                (c.period, c.block, c.identifier, c.observer) =
+                    (x, 1, Tuning::from_lambda(0.1 / x), Tuning::from_lambda(0.1 / x))
+            },
+            &[1e-6, 1e3],
+        ),
         // By the period they run at: M T = 4 ms for the identifier, T = 1 ms for the observer.
         ("identifier.lambda", |c, x| c.identifier.lambda = x, &[2.6e-4, 249.0]),
         ("observer.lambda", |c, x| c.observer.lambda = x, &[1.1e-3, 999.0]),
@@ -151,6 +159,11 @@ fn known_values_and_limits() {
             |c, x| c.noise_sd = Some(x),
             &positive_and("noise_sd", &[(1e-13, OutOfRange("noise_sd")), (1.1e6, OutOfRange("noise_sd"))]),
         ),
+        (
+            "max_misfit",
+            |c, x| c.max_misfit = Some(x),
+            &positive_and("max_misfit", &[(1.0 + 1e-6, OutOfRange("max_misfit"))]),
+        ),
         ("parameter_settle", |c, x| c.parameter_settle = x, &settle("parameter_settle")),
         ("state_settle", |c, x| c.state_settle = x, &settle("state_settle")),
         ("position_limit", |c, x| c.position_limit = x, &limit("position_limit")),
@@ -160,6 +173,7 @@ fn known_values_and_limits() {
         ("drift", |c, x| c.drift[1] = x, &[0.0, -9.81, 1e6, -1e6]),
         ("nominal", |c, x| c.nominal[1] = Some(x), &[1e-15, 1e15]),
         ("noise_sd", |c, x| c.noise_sd = Some(x), &[1e-12, 1e6]),
+        ("max_misfit", |c, x| c.max_misfit = Some(x), &[1e-9, 1.0]),
         ("parameter_settle", |c, x| c.parameter_settle = x, &[0.0, 1e-9, 1e6]),
         ("position_limit", |c, x| c.position_limit = x, &[1e-9, 1e6]),
     ]);

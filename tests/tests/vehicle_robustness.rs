@@ -1,8 +1,9 @@
 //! Whatever comes in, what goes out is finite, and what is wrong is named.
 
-use fsb_core::ConfigError;
+use fsb_core::guard::GuardConfig;
 use fsb_core::readout::ParameterStatus;
 use fsb_core::vehicle::{Attitude, ChangeRule, Expected, Measured, VehicleConfig, VehicleEstimator, Wrench};
+use fsb_core::{ConfigError, Tuning};
 use fsb_sim_host::hexarotor::Quaternion;
 use fsb_tests::rigid_body::{RigidBody, matrix};
 use fsb_tests::six_axes::{Course, Flight};
@@ -162,6 +163,29 @@ fn forms_of_the_attitude() {
 }
 
 /// Each parameter that cannot be right is named as it is written.
+/// The ends of what a mass and an inertia may be, and the defaults that are documented.
+#[test]
+fn ends_and_defaults() {
+    for nominal in [1e-12, 1e12] {
+        let all = Expected { nominal: Some(nominal), min: 1e-12, max: 1e12 };
+        let config = VehicleConfig { mass: all, inertia: [all; 3], ..VehicleConfig::new(2e-3) };
+        assert!(VehicleEstimator::<1>::new(&config).is_ok(), "{nominal}");
+    }
+    let default = VehicleConfig::new(2e-3);
+    assert_eq!((default.mass, default.inertia), (Expected::within(1e-3, 1e3), [Expected::within(1e-7, 1e3); 3]));
+    let VehicleConfig { translation, rotation, gravity, .. } = default;
+    assert_eq!(
+        (gravity, translation.identifier, rotation.identifier),
+        (9.81, Tuning::from_lambda(4.0), Tuning::from_lambda(4.0))
+    );
+    assert_eq!((translation.observer, rotation.observer), (Tuning::from_lambda(10.0), Tuning::from_lambda(20.0)));
+    let guard =
+        GuardConfig { sigmas: 8.0, acceleration: 20.0, floor: 5e-3, jump_after: 10, bridge: 2.0, frozen_after: 0 };
+    assert_eq!((translation.guard, rotation.guard), (guard, GuardConfig { acceleration: 200.0, ..guard }));
+    assert_eq!(ChangeRule::default(), ChangeRule { relative: 0.15, sigmas: 6.0, hold_off: 1.0 });
+    assert_eq!(Expected::about(2.0), Expected { nominal: Some(2.0), min: 0.2, max: 20.0 });
+}
+
 #[test]
 fn refused() {
     let refused = |change: fn(&mut VehicleConfig)| {
@@ -175,6 +199,10 @@ fn refused() {
     assert_eq!(refused(|c| c.mass.min = 0.0), ConfigError::NonPositive("mass.min"));
     assert_eq!(refused(|c| c.mass.max = c.mass.min), ConfigError::InvertedRange("mass.min"));
     assert_eq!(refused(|c| c.mass.nominal = Some(f64::NAN)), ConfigError::NonFinite("mass.nominal"));
+    assert_eq!(refused(|c| c.mass.min = 0.9e-12), ConfigError::OutOfRange("mass.min"));
+    assert_eq!(refused(|c| c.mass.max = 1.1e12), ConfigError::OutOfRange("mass.max"));
+    assert_eq!(refused(|c| c.mass.nominal = Some(1.1e12)), ConfigError::OutOfRange("mass.nominal"));
+    assert_eq!(refused(|c| c.inertia[0].nominal = Some(0.9e-12)), ConfigError::OutOfRange("inertia.nominal"));
     assert_eq!(refused(|c| c.inertia[2].max = f64::INFINITY), ConfigError::NonFinite("inertia.max"));
     assert_eq!(refused(|c| c.inertia[1].nominal = Some(-1.0)), ConfigError::NonPositive("inertia.nominal"));
     assert_eq!(refused(|c| c.translation.substeps = 0), ConfigError::Zero("translation.substeps"));
