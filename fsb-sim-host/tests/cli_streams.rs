@@ -78,3 +78,16 @@ fn a_full_disk_is_no_success() {
     }
     assert_eq!(unheard(&["fly", "--sed", "1"]).0.status.code(), Some(2));
 }
+
+/// A log that comes through a pipe, as from `fsb replay <(zcat log.csv.gz)`, is read whole.
+#[cfg(unix)]
+#[test]
+fn a_log_may_come_through_a_pipe() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_fsb"));
+    command.args(["replay", "/dev/stdin", "--json"]);
+    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    std::io::Write::write_all(&mut child.stdin.take().unwrap(), log().as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(serde_json::from_slice::<Value>(&output.stdout).unwrap()["samples"], 400);
+}

@@ -209,9 +209,11 @@ fn refuse(error: FlightError) -> Failure {
     if error.is_no_flight() { Failure::NoFlight(error.to_string()) } else { Failure::Usage(error.to_string()) }
 }
 
-/// By its name, or by its first bytes.
+/// By its name, or by its first bytes; not those of a pipe, which could not be read again.
 fn is_ulog(path: &Path) -> bool {
     let mut begin = [0; 4];
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ulg"))
-        || std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut begin)).is_ok() && &begin == b"ULog"
+        || path.is_file()
+            && std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut begin)).is_ok()
+            && &begin == b"ULog"
 }
