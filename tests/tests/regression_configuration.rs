@@ -9,6 +9,8 @@ use fsb_core::regression::{DragConfig, DragEstimator, Identify};
 
 type Config = DragConfig<2>;
 type Set = fn(&mut Config, f64);
+/// How a value is set, what is refused and how, what is taken.
+type Case<'a> = (Set, Vec<(f64, ConfigError)>, &'a [f64]);
 
 fn outcome(change: impl Fn(&mut Config)) -> Option<ConfigError> {
     let mut config = Config::new(1e-3);
@@ -23,7 +25,7 @@ fn every_number() {
     let rate = |name| and(name, &[(1001.0, TooFastForPeriod(name)), (0.9e-3, TooSlowForPeriod(name))]);
     let limit = |name| and(name, &[(1.1e6, OutOfRange(name))]);
     let settle = |name| vec![(f64::NAN, NonFinite(name)), (-1e-9, Negative(name)), (1.1e6, OutOfRange(name))];
-    let cases: [(Set, Vec<(f64, ConfigError)>, &[f64]); 14] = [
+    let cases: [Case<'_>; 14] = [
         (|c, x| c.identifier.lambda = x, rate("identifier.lambda"), &[1000.0, 1e-3]),
         (|c, x| c.identifier.q = x, rate("identifier.q"), &[1000.0, 1e-3]),
         (|c, x| c.observer.lambda = x, rate("observer.lambda"), &[1000.0, 1e-3]),
