@@ -135,11 +135,12 @@ fn defaults_are_as_documented() {
 #[test]
 fn the_ends_of_a_gate() {
     type Set = fn(&mut GuardConfig, f64);
+    type Case<'a> = (Set, &'a [f64], &'a [(f64, ConfigError)]);
     let (sigmas, acceleration, floor): (Set, Set, Set) =
         (|c, x| c.sigmas = x, |c, x| c.acceleration = x, |c, x| c.floor = x);
     let (bridge, jump, frozen): (Set, Set, Set) =
         (|c, x| c.bridge = x * PERIOD, |c, x| c.jump_after = x as u32, |c, x| c.frozen_after = x as u32);
-    let cases: [(Set, &[f64], &[(f64, ConfigError)]); 6] = [
+    let cases: [Case<'_>; 6] = [
         (
             sigmas,
             &[3.0, 1000.0],
