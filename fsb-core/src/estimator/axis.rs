@@ -52,6 +52,8 @@ pub(super) struct Axis {
     pub settled_at: u32,
     /// The same, or out of reach where there is nothing to predict it with.
     pub usable_at: u32,
+    /// The variance of ẑ0, which may be known no better than that: no disturbance.
+    pub(super) tolerance: f32,
     /// Measurements replaced in the block in progress.
     pub missed: u16,
     /// Measurements replaced since the last one that came.

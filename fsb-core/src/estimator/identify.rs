@@ -6,7 +6,7 @@ use super::axis::Axis;
 use super::design::Common;
 use super::shared::IdentifierClock;
 use crate::identifier::{BlockMean, Coefficients, Stage};
-use crate::readout::{ParameterState, Readout, weight};
+use crate::readout::{CoarseStep, NoiseLevel, ParameterState, Readout, weight};
 
 /// What all axes need in a round of single samples.
 #[derive(Clone, Copy)]
@@ -105,7 +105,7 @@ impl Axis {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         } else if coarse {
-            parameter.step_coarsely(0.0, 0.0, 0.0);
+            parameter.step_coarsely(&CoarseStep::default(), 0.0);
         }
     }
 
@@ -125,7 +125,7 @@ impl Axis {
             }
         } else if coarse {
             // Nothing to add: those that share the parameter do not wait for this axis.
-            parameter.step_coarsely(0.0, 0.0, 0.0);
+            parameter.step_coarsely(&CoarseStep::default(), 0.0);
         }
     }
 
@@ -143,7 +143,8 @@ impl Axis {
         let step = self.observer.innovation() - self.innovation_before;
         // With the quotient of this very moment: the one read last may be from before the take-off.
         let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
-        let residual = z2 - parameter.ratio.quotient() * z0;
+        let quotient = parameter.ratio.quotient();
+        let residual = z2 - quotient * z0;
         if self.gap == 0 || self.noise.is_known() {
             self.noise.add(
                 self.fine(step * step, common),
@@ -155,13 +156,17 @@ impl Axis {
         let (up, down) = weight(common.readout, z2, z0);
         let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
-        let noise = match common.readout {
-            Readout::LeastSquares => {
-                self.noise.measurement_variance() * clock.shape.variance() * common.identifier.scale2()
-            }
-            Readout::AbsoluteRatio => 0.0,
+        let of_noise = self.noise.measurement_variance() * clock.shape.variance() * common.identifier.scale2();
+        // What k̂ and the input may be off by is no disturbance.
+        let tolerated = quotient * quotient * self.tolerance + parameter.undisturbed_variance(quotient) * z0 * z0;
+        let beyond = residual * residual - NoiseLevel::EXPLAINED * (of_noise + tolerated);
+        let disturbance = if beyond > 0.0 && self.noise.is_known() { covariance.correlation * beyond } else { 0.0 };
+        let (noise, disturbance) = match common.readout {
+            Readout::LeastSquares => (of_noise, disturbance),
+            Readout::AbsoluteRatio => (0.0, 0.0),
         };
-        parameter.step_coarsely(covariance.stride * down * z0, noise, covariance.forgetting);
+        let step = CoarseStep { added: covariance.stride * down * z0, noise, weight: up, disturbance };
+        parameter.step_coarsely(&step, covariance.forgetting);
     }
 
     /// The variance of a block's mean from the squared step of the innovation. A block has the noise of as many measurements as

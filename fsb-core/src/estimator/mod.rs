@@ -48,7 +48,7 @@ pub use config::{EstimatorConfig, SharedConfig};
 pub use configuring::Configuring;
 pub use design::EstimatorDesign;
 pub use output::{AxisDiagnostics, AxisState, Counters, Learning, OutOfStep, StateStatus};
-pub(crate) use output::{IdentifierView, InnovationView};
+pub(crate) use output::{IdentifierView, InnovationView, InputShift};
 pub use view::View;
 
 use crate::error::ConfigError;

@@ -126,6 +126,19 @@ pub(crate) struct IdentifierView<const N: usize> {
     pub denominators: [f32; N],
 }
 
+/// What an axis's input turns out to have been beyond what was applied, to be added to its identifier.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct InputShift {
+    /// x4, x5, x6 of the cascade.
+    pub cascade: [f32; 3],
+    /// Σ ω ẑ0 of the parameter.
+    pub denominator: f32,
+    /// The square of what its k may be off by, relative to itself, as the input may be.
+    pub doubt: f32,
+    /// The variance that ẑ0 has for the same reason, scaled.
+    pub tolerance: f32,
+}
+
 /// The identifier's inner signals in physical units: for logs and tests, not for control.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

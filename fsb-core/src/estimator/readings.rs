@@ -2,7 +2,7 @@
 
 use super::Estimator;
 use super::axis::Source;
-use super::output::{AxisDiagnostics, AxisState, Counters, IdentifierView, InnovationView, StateStatus};
+use super::output::{AxisDiagnostics, AxisState, Counters, IdentifierView, InnovationView, InputShift, StateStatus};
 use super::parts::Frame;
 use crate::moments::InputMoments;
 use crate::observer::{Model, NoiseGain};
@@ -118,16 +118,17 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     }
 
     /// Adds to an axis's input cascade (x4, x5, x6), and to the denominator of its parameter: what the input turns out to have
-    /// been beyond what was applied; `doubt` is the square of what that may leave k̂ off by, relative to itself.
-    pub(crate) fn shift_input(&mut self, axis: usize, cascade: [f32; 3], denominator: f32, doubt: f32) {
+    /// been beyond what was applied.
+    pub(crate) fn shift_input(&mut self, axis: usize, shift: &InputShift) {
         let parameter = if P == 1 { 0 } else { axis };
         if let (Some(axis), Some(parameter)) = (self.frame.axes.get_mut(axis), self.parameters.get_mut(parameter)) {
-            let [x4, x5, x6] = cascade;
+            let [x4, x5, x6] = shift.cascade;
             axis.cascade.x4.add(x4);
             axis.cascade.x5.add(x5);
             axis.cascade.x6.add(x6);
-            parameter.ratio.shift_denominator(denominator);
-            parameter.set_doubt(doubt);
+            parameter.ratio.shift_denominator(shift.denominator);
+            parameter.set_doubt(shift.doubt);
+            axis.tolerance = shift.tolerance;
         }
     }
 

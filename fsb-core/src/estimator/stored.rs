@@ -16,6 +16,7 @@ stored!(Axis {
     block,
     origin,
     innovation_before,
+    tolerance,
     cascade,
     cross,
     noise_sum,

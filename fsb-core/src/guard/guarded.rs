@@ -4,7 +4,7 @@ use super::config::{GuardConfig, GuardDesign};
 use super::gate::Gate;
 use super::verdict::{Rejections, Verdict};
 use crate::error::ConfigError;
-use crate::estimator::{AxisState, Estimator, EstimatorConfig, Learning, OutOfStep, StateStatus};
+use crate::estimator::{AxisState, Estimator, EstimatorConfig, InputShift, Learning, OutOfStep, StateStatus};
 use crate::moments::InputMoments;
 use core::ops::Deref;
 
@@ -185,8 +185,8 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         self.estimator.translate(by);
     }
 
-    pub(crate) fn shift_input(&mut self, axis: usize, by: [f32; 3], denominator: f32, doubt: f32) {
-        self.estimator.shift_input(axis, by, denominator, doubt);
+    pub(crate) fn shift_input(&mut self, axis: usize, shift: &InputShift) {
+        self.estimator.shift_input(axis, shift);
     }
 
     fn fresh(&self, mut states: [Option<AxisState>; N]) -> [Option<AxisState>; N] {

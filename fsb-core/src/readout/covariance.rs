@@ -42,6 +42,9 @@ pub(crate) struct CovarianceDesign {
     pub noise_forgetting: f32,
     /// Values of the noise level that are remembered.
     pub noise_memory: u16,
+    /// Steps that the residual of an acceleration without memory is spread over, D times: the noise bandwidth of the three
+    /// stages, ∫ |F|⁶ dω/2π = 3 λ/16, times T, into D.
+    pub correlation: f32,
     /// 1 - μ over D steps, for one of the axes that share a parameter
     pub forgetting: f32,
 }
@@ -62,6 +65,7 @@ impl CovarianceDesign {
         mu: 0.0,
         noise_forgetting: 0.0,
         noise_memory: 0,
+        correlation: 0.0,
         forgetting: 0.0,
     };
 
@@ -87,6 +91,7 @@ impl CovarianceDesign {
         self.mu = 1.0 - forgetting;
         self.noise_forgetting = forgetting * (2.0 - forgetting);
         self.noise_memory = NoiseLevel::memory(faded.rounded());
+        self.correlation = self.stride * 16.0 / (3.0 * lambda * period.rounded());
         self.forgetting = decayed(faded.over(Wide::of(sharing))).rounded();
     }
 

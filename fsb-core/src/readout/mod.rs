@@ -20,7 +20,7 @@ pub(crate) use covariance::CovarianceDesign;
 pub use covariance::{NoiseCross, NoiseShape};
 pub use noise_level::NoiseLevel;
 pub(crate) use noise_level::innovation_step_gain;
-pub(crate) use parameter::{CheckedRule, ParameterState};
+pub(crate) use parameter::{CheckedRule, CoarseStep, ParameterState};
 pub use parameter::{Parameter, ParameterRule};
 pub(crate) use ratio::weight;
 pub use ratio::{Memory, Ratio, Readout};

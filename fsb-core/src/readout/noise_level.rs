@@ -9,6 +9,9 @@
 //! The larger one counts. Beside them the filtered acceleration itself is averaged, in the same measure: what part of it
 //! the model leaves unexplained tells whether the model holds at all. Each is a mean over the past, at first of all values, later over the last 256, or as many as the read-out
 //! remembers.
+//!
+//! k remembers longer than that: a gust that has passed, or noise that was, is in its sums for as long as they last. So the residual is
+//! averaged a second time over all that is remembered, and where it was larger that counts.
 
 use crate::snapshot::stored;
 
@@ -18,6 +21,8 @@ use crate::snapshot::stored;
 pub struct NoiseLevel {
     fine: f32,
     slow: f32,
+    /// The mean of what `slow` is of, over all that the read-out remembers.
+    whole: f32,
     /// Means of the residual and of what there is to explain, over a shorter past.
     residual: f32,
     signal: f32,
@@ -25,36 +30,37 @@ pub struct NoiseLevel {
 }
 
 impl NoiseLevel {
-    /// The longest memory, in values.
-    const MEMORY: f32 = 256.0;
+    /// The longest memory of the level of the moment, in values.
+    const MEMORY: u16 = 256;
     /// Values before which the level is not trusted.
     const ENOUGH: u16 = 8;
     /// The memory of the misfit, in values: about 2.5/λ.
     const RECENT: u16 = 32;
     /// A residual of so many times the variance of the measurement noise may still be noise.
-    const EXPLAINED: f32 = 25.0;
+    pub(crate) const EXPLAINED: f32 = 25.0;
 
     /// Nothing seen yet.
-    pub(crate) const UNKNOWN: Self = Self { fine: 0.0, slow: 0.0, residual: 0.0, signal: 0.0, values: 0 };
+    pub(crate) const UNKNOWN: Self = Self { fine: 0.0, slow: 0.0, whole: 0.0, residual: 0.0, signal: 0.0, values: 0 };
 
     /// The memory of a read-out that forgets by e^(-`fading`) from value to value.
     pub(crate) fn memory(fading: f32) -> u16 {
         // Infinite where nothing is forgotten; no number of values is more than u32 holds.
-        (1.0 / fading).clamp(16.0, Self::MEMORY) as u32 as u16
+        (1.0 / fading).clamp(16.0, f32::from(u16::MAX)) as u32 as u16
     }
 
     /// A level known beforehand; it counts as much as the least number of values that is trusted.
     pub(crate) const fn expected(variance: f32) -> Self {
-        Self { fine: variance, slow: variance, residual: 0.0, signal: 0.0, values: Self::ENOUGH }
+        Self { fine: variance, slow: variance, whole: variance, residual: 0.0, signal: 0.0, values: Self::ENOUGH }
     }
 
     /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2. `memory`
-    /// is the longest, in values.
+    /// is that of the read-out, in values.
     pub(crate) fn add(&mut self, fine: f32, slow: f32, signal: f32, memory: u16) {
         if self.values < memory {
             self.values += 1;
         }
-        let gain = 1.0 / f32::from(self.values);
+        self.whole += (slow - self.whole) / f32::from(self.values);
+        let gain = 1.0 / f32::from(if self.values < Self::MEMORY { self.values } else { Self::MEMORY });
         self.fine += gain * (fine - self.fine);
         self.slow += gain * (slow - self.slow);
         let gain = 1.0 / f32::from(if self.values < Self::RECENT { self.values } else { Self::RECENT });
@@ -64,7 +70,8 @@ impl NoiseLevel {
 
     /// σ², in the square of the position's unit, of the means that the identifier works on.
     pub fn variance(&self) -> f32 {
-        if self.slow > self.fine { self.slow } else { self.fine }
+        let slow = if self.slow > self.whole { self.slow } else { self.whole };
+        if slow > self.fine { slow } else { self.fine }
     }
 
     /// Both: from sample to sample, and in the band of the identifier.
@@ -97,4 +104,4 @@ pub(crate) fn innovation_step_gain(p: f32) -> f32 {
     4.0 * (5.0 - p * p) / (q * q * q)
 }
 
-stored!(NoiseLevel { fine, slow, residual, signal, values });
+stored!(NoiseLevel { fine, slow, whole, residual, signal, values });

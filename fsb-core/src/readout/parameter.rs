@@ -78,6 +78,19 @@ pub(crate) struct CheckedRule {
     pub limit_to_stay: f32,
 }
 
+/// A coarse step of one of a parameter's axes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CoarseStep {
+    /// What it adds to Σ ω ẑ0.
+    pub added: f32,
+    /// What noise alone adds to Σ ẑ2².
+    pub noise: f32,
+    /// ω
+    pub weight: f32,
+    /// What the square of the residual is beyond noise, as often as there are steps in one, times the steps that a disturbance lasts.
+    pub disturbance: f32,
+}
+
 /// One parameter: its sums, pooled over the axes that share it, and what has been read out of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ParameterState {
@@ -102,6 +115,9 @@ pub(crate) struct ParameterState {
     information: Accumulator,
     /// Σ var ẑ2 of noise alone over the coarse steps.
     echo: Accumulator,
+    /// The quotient's variance by disturbances: Σ (ω r)² over the square of the information, r² being what the residual's square is beyond
+    /// noise, times the steps that a disturbance lasts.
+    disturbance: f32,
     /// The newest quotient and its variance while the value from before is held.
     fresh: Parameter,
     pub nominal: Option<f32>,
@@ -136,6 +152,7 @@ impl ParameterState {
             stepped: 0,
             information: Accumulator::ZERO,
             echo: Accumulator::ZERO,
+            disturbance: 0.0,
             fresh: Parameter { value: 0.0, variance: f32::MAX },
             nominal,
             rule,
@@ -187,10 +204,17 @@ impl ParameterState {
         self.members = self.members.saturating_sub(1);
     }
 
-    /// A coarse step of one of its axes: `added` is what it adds to Σ ω ẑ0, and `noise` what noise alone adds to Σ ẑ2².
-    pub fn step_coarsely(&mut self, added: f32, noise: f32, forgetting: f32) {
-        self.echo.add_folded(noise - forgetting * self.echo.value());
-        self.information.add_folded(added - forgetting * self.information.value());
+    /// A coarse step of one of its axes.
+    pub fn step_coarsely(&mut self, step: &CoarseStep, forgetting: f32) {
+        self.echo.add_folded(step.noise - forgetting * self.echo.value());
+        self.information.add_folded(step.added - forgetting * self.information.value());
+        if step.added > 0.0 {
+            // Scaled down first: the sum by itself could be beyond f32.
+            let per_information = 1.0 / self.information.value();
+            let before = 1.0 - step.added * per_information;
+            let weight = step.weight * per_information;
+            self.disturbance = before * before * self.disturbance + weight * weight * step.disturbance;
+        }
         self.stepped = self.stepped.saturating_add(1);
         if self.stepped >= self.members {
             self.stepped = 0;
@@ -229,6 +253,10 @@ impl ParameterState {
     /// The variance of the quotient from that of its numerator, where that is known. `scale2` is the square of the
     /// identifier's scale.
     ///
+    /// What acts and was not told, a gust or a push, is no position noise, which two differences have made small where the input is steady: an
+    /// acceleration without memory comes out of the three stages spread over `correlation` steps, so that what the squares of the residuals
+    /// add up to, each weighed as it went into the quotient, counts so many times.
+    ///
     /// A controller that feeds the estimates back answers to measurement noise with an input that goes with it. Where hardly
     /// anything else moves, that pulls the quotient towards zero, by a share of about ½ Σ var ẑ2 / Σ (k ẑ0)² (observed: 38 %
     /// at 1.3 times the noise). The square of it counts as variance.
@@ -255,7 +283,7 @@ impl ParameterState {
     }
 
     fn add_doubt(&mut self, quotient: f32) {
-        let variance = self.of_noise + self.doubt * (quotient * quotient);
+        let variance = self.of_noise + (self.disturbance + self.doubt * (quotient * quotient));
         *(if self.is_held() { &mut self.fresh.variance } else { &mut self.variance }) =
             if variance <= f32::MAX { variance } else { f32::MAX };
     }
@@ -290,6 +318,11 @@ impl ParameterState {
     /// The newest quotient and its variance, whatever is handed out.
     fn newest(&self) -> Parameter {
         if self.is_held() { self.fresh } else { self.newest_or_held() }
+    }
+
+    /// The variance of the `quotient` without what disturbances add to it.
+    pub fn undisturbed_variance(&self, quotient: f32) -> f32 {
+        self.of_noise + self.doubt * (quotient * quotient)
     }
 
     /// The newest quotient of a parameter that is not held; zero before there is any.
@@ -378,6 +411,7 @@ stored!(ParameterState {
     stepped,
     information,
     echo,
+    disturbance,
     fresh,
 });
 stored!(Parameter { value, variance });
@@ -387,7 +421,7 @@ impl ParameterState {
     pub(crate) fn is_sound(&self) -> bool {
         let rule = &self.rule;
         let in_range = |k: Parameter| k.value >= rule.min && k.value <= rule.max;
-        let variances = [self.variance, self.fresh.variance, self.of_noise, self.doubt];
+        let variances = [self.variance, self.fresh.variance, self.of_noise, self.doubt, self.disturbance];
         variances.iter().all(|variance| *variance >= 0.0) && self.valid().is_none_or(in_range)
     }
 }

@@ -53,6 +53,8 @@ pub(super) struct Axis {
     pub columns: Columns,
     /// The columns that took part in the end, this round or the one before.
     pub used: Columns,
+    /// Excited beyond hover.
+    pub excited: bool,
     /// What part of the information on k is this axis's.
     pub share: f32,
     /// Variance that a row, taken as independent of the others, has. Scaled.

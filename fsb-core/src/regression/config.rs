@@ -49,6 +49,11 @@ pub struct DragConfig<const N: usize> {
     pub drag_sd_limit: f64,
     /// The largest sd of d (m/s²) at which it is used. It stays used up to twice that.
     pub disturbance_sd_limit: f64,
+    /// How far from zero D may be where it is asked for and not told (1/s): a standard deviation, which enters those of k and of
+    /// the other terms. Up to 1e6; 0 where there is none.
+    pub drag_prior_sd: f64,
+    /// The same of d (m/s²). Without excitation sd(k̂) comes to this over the known drift: 2 % in hover with the default of 0.2.
+    pub disturbance_prior_sd: f64,
     /// ε of the parameter (s): k̂, and with it D and d, is not valid earlier.
     pub parameter_settle: f64,
     /// ε of the state (s): position and velocity are not handed out earlier.
@@ -76,6 +81,8 @@ impl<const N: usize> DragConfig<N> {
             excitation: 0.03,
             drag_sd_limit: 0.25,
             disturbance_sd_limit: 0.2,
+            drag_prior_sd: 0.25,
+            disturbance_prior_sd: 0.2,
             parameter_settle: 0.0,
             state_settle: 0.0,
             position_limit: 1e5,

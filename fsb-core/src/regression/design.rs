@@ -42,10 +42,12 @@ pub(super) struct Common {
     pub per_scale2: f32,
     pub nominal: Option<f32>,
     pub rule: CheckedRule,
-    /// Squares of the limits.
+    /// Squares of the limits, and of what is taken of D and d before they are told.
     pub excitation2: f32,
     pub drag_variance: f32,
     pub disturbance_variance: f32,
+    pub drag_prior: f32,
+    pub disturbance_prior: f32,
     /// T
     pub period: f32,
     /// ε in measurements
@@ -102,6 +104,8 @@ impl Common {
         let excitation2 = square(&Rule("excitation", &Range::POSITIVE), config.excitation);
         let drag_variance = square(&Rule("drag_sd_limit", &Range::POSITIVE), config.drag_sd_limit);
         let disturbance_variance = square(&Rule("disturbance_sd_limit", &Range::POSITIVE), config.disturbance_sd_limit);
+        let drag_prior = square(&Rule("drag_prior_sd", &Range::MAGNITUDE), config.drag_prior_sd);
+        let disturbance_prior = square(&Rule("disturbance_prior_sd", &Range::MAGNITUDE), config.disturbance_prior_sd);
         let parameter_settle = checks.samples("parameter_settle", config.parameter_settle, Wide::new(period));
         let state_settle = checks.samples("state_settle", config.state_settle, Wide::new(period));
         checks.number(&Rule("position_limit", &Range::LIMIT), config.position_limit);
@@ -129,6 +133,8 @@ impl Common {
             excitation2,
             drag_variance,
             disturbance_variance,
+            drag_prior,
+            disturbance_prior,
             period: period as f32,
             parameter_settle,
             state_settle,

@@ -56,8 +56,10 @@ use pooled::Pooled;
 /// Calls as for [`crate::Estimator`]: [`measure`](Self::measure) at a measurement instant, compute the control,
 /// [`apply`](Self::apply). A measurement instant comes every `substeps` control periods.
 ///
-/// A term that the data cannot tell counts as zero and is reported [`Term::NotObservable`]; the others do not suffer. In hover
-/// that is every D and d, and k is the one that holds the vehicle against gravity.
+/// A term that the data cannot tell counts as zero and is reported [`Term::NotObservable`]. In hover
+/// that is every D and d, and k is the one that holds the vehicle against gravity; that they may be another than zero
+/// ([`DragConfig::drag_prior_sd`], [`DragConfig::disturbance_prior_sd`]) is in the standard deviation of k. The state does not suffer: what acts
+/// constantly beside k f is predicted with, be it told from k or not.
 ///
 /// Non-finite policy: a measurement or an input that is not finite, or larger than its limit, is rejected and counted; a
 /// rejected measurement counts as missed and is predicted, a rejected input is replaced by the axis's mean input of late.

@@ -8,7 +8,7 @@ pub enum Term {
     /// The configuration does not ask for it; it counts as zero.
     #[default]
     NotAsked,
-    /// The data do not tell, or k̂ is not valid; it counts as zero.
+    /// The data do not tell, or k̂ is not valid; it counts as zero, within what the configuration says it may be.
     NotObservable,
     /// Told from k and from the other terms.
     Known {

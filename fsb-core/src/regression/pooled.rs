@@ -18,7 +18,12 @@ pub(super) struct Pooled {
 
 /// k = Σ info k_i / Σ info, and its variance, with the columns that take part at present free on each axis.
 pub(super) fn read(axes: &mut [Axis], common: &Common) -> Estimate {
-    let information: f32 = axes.iter().map(|axis| axis.reduced.information()).sum();
+    let mut noisiest = 0.0;
+    for axis in axes.iter().filter(|axis| axis.reduced.information() > 0.0) {
+        let own = axis.own_variance(common);
+        noisiest = if own > noisiest { own } else { noisiest };
+    }
+    let information: f32 = axes.iter().map(|axis| axis.weight(noisiest, common)).sum();
     let per_information = 1.0 / information;
     // Nothing known, or so little that it has no inverse.
     if information.is_nan() || !per_information.is_finite() {
@@ -26,13 +31,13 @@ pub(super) fn read(axes: &mut [Axis], common: &Common) -> Estimate {
     }
     let mut value = 0.0;
     for axis in axes.iter_mut() {
-        axis.share = axis.reduced.information() * per_information;
+        axis.share = axis.weight(noisiest, common) * per_information;
         value += axis.share * axis.reduced.k();
     }
     let mut variance = 0.0;
     for axis in axes.iter_mut().filter(|axis| axis.share > 0.0) {
         axis.weigh(value, common);
-        variance += axis.share * axis.share * axis.reduced.k_variance(axis.row_variance);
+        variance += axis.share * axis.share * axis.k_variance(common);
     }
     Estimate { value, variance: if variance.is_finite() { variance } else { f32::MAX } }
 }

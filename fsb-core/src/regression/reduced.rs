@@ -4,6 +4,9 @@
 //! ω = √2 λ with 0.79/λ times its variance: a regressor that swings at that frequency meets 0.79/(λ T_row) rows in the place
 //! of one, a slower one fewer by 27/4 w²/(1 + w)³, w = (ω/λ)². Errors of the model are slow, too, so that the factor is
 //! not taken below a quarter: the standard deviation of d is two to four times too large for white noise alone.
+//!
+//! A term left out is not known to be zero. What it would put into the others is linear in it; so its variance, that of what it
+//! may be, is one of theirs.
 
 use super::triangle::NOTHING;
 
@@ -47,7 +50,40 @@ impl Share {
     }
 }
 
-/// Columns u (d), v (D), f (k) and the right-hand side y; a column left out has a row of zeros.
+/// What a unit of D and of d, where its column is left out, puts into a right-hand side.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Untold {
+    drag: f32,
+    disturbance: f32,
+}
+
+impl Untold {
+    /// The variance that `unknown` terms make of it.
+    fn variance(self, unknown: &Unknown) -> f32 {
+        let Self { drag, disturbance } = self;
+        drag * drag * unknown.drag_variance + disturbance * disturbance * unknown.disturbance_variance
+    }
+
+    /// x ← x + s (row - first x), as the right-hand side itself; returns the row without what the triangle knows of it.
+    fn turn(&mut self, first: f32, row: Self, s: f32) -> Self {
+        let left = Self { drag: row.drag - first * self.drag, disturbance: row.disturbance - first * self.disturbance };
+        self.drag += s * left.drag;
+        self.disturbance += s * left.disturbance;
+        left
+    }
+}
+
+/// How far from zero the terms may be that are asked for and left out: variances, zero for one that is not asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Unknown {
+    /// Of D, 1/s².
+    pub drag_variance: f32,
+    /// Of d, m²/s⁴.
+    pub disturbance_variance: f32,
+}
+
+/// Columns u (d), v (D), f (k) and the right-hand side y; a column left out has a row of zeros, and its share in the
+/// right-hand sides of the others is kept beside them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reduced {
     u: Share,
@@ -60,23 +96,27 @@ pub struct Reduced {
     vy: f32,
     fy: f32,
     residual: f32,
+    in_u: Untold,
+    in_v: Untold,
+    in_f: Untold,
 }
 
 impl Reduced {
     pub(super) fn new(shares: [Share; 3], rows: [[f32; 4]; 3], residual: f32, disturbance: bool, drag: bool) -> Self {
         let [u, v, f] = shares;
         let [[_, uv, uf, uy], [_, _, vf, vy], [_, _, _, fy]] = rows;
-        let uv = if drag { uv } else { 0.0 };
+        let (uv, untold) = if drag { (uv, 0.0) } else { (0.0, uv) };
         let mut kept = Self { f, fy, residual, ..Self::default() };
         if drag {
             (kept.v, kept.vf, kept.vy) = (v, vf, vy);
         } else {
-            kept.take_in(v, 0.0, vf, vy);
+            kept.take_in(v, 0.0, vf, vy, Untold { drag: 1.0, disturbance: 0.0 });
         }
         if disturbance {
             (kept.u, kept.uv, kept.uf, kept.uy) = (u, uv, uf, uy);
+            kept.in_u.drag = untold;
         } else {
-            kept.take_in(u, uv, uf, uy);
+            kept.take_in(u, uv, uf, uy, Untold { drag: untold, disturbance: 1.0 });
         }
         kept
     }
@@ -96,6 +136,16 @@ impl Reduced {
         self.f.variance(row_variance)
     }
 
+    /// Variance of that by the terms left out.
+    pub(super) fn k_untold(&self, unknown: &Unknown) -> f32 {
+        self.in_f.variance(unknown)
+    }
+
+    /// Σ of the squared residuals of this axis with the parameter that is the best for it.
+    pub(super) const fn least_residual(&self) -> f32 {
+        self.residual
+    }
+
     /// Σ of the squared residuals of this axis if the parameter is `k`, D and d being the best for it.
     pub fn residual(&self, k: f32) -> f32 {
         let off = self.fy - k;
@@ -110,6 +160,11 @@ impl Reduced {
         }
     }
 
+    /// Variance of that by the terms left out.
+    pub(super) fn drag_untold(&self, unknown: &Unknown) -> f32 {
+        self.in_v.variance(unknown)
+    }
+
     /// d for this k and this D, which is zero where it does not take part.
     pub fn disturbance(&self, k: Estimate, drag: f32, row_variance: f32) -> Estimate {
         let by_k = self.uf - self.uv * self.vf;
@@ -120,17 +175,24 @@ impl Reduced {
         }
     }
 
+    /// Variance of that by the terms left out.
+    pub(super) fn disturbance_untold(&self, unknown: &Unknown) -> f32 {
+        self.in_u.variance(unknown)
+    }
+
     /// A row of the triangle whose own column is left out.
-    fn take_in(&mut self, row: Share, v: f32, f: f32, y: f32) {
+    fn take_in(&mut self, row: Share, v: f32, f: f32, y: f32, untold: Untold) {
         let (mut weight, noise) = (row.energy, row.noise / row.energy);
         let s = rotate(&mut self.v, v, &mut weight, noise);
         let left_f = f - v * self.vf;
         let left_y = y - v * self.vy;
         self.vf += s * left_f;
         self.vy += s * left_y;
+        let left_untold = self.in_v.turn(v, untold, s);
         let s = rotate(&mut self.f, left_f, &mut weight, noise);
         let left = left_y - left_f * self.fy;
         self.fy += s * left;
+        self.in_f.turn(left_f, left_untold, s);
         self.residual += weight * left * left;
     }
 }

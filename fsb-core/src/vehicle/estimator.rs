@@ -229,7 +229,7 @@ impl<const D: usize> VehicleEstimator<D> {
         }
         if let Some(shifts) = retroactive.step(&self.rotation.identifier_view(), &k, &guesses) {
             for (axis, shift) in shifts.iter().enumerate() {
-                self.rotation.shift_input(axis, shift.input, shift.denominator, shift.doubt);
+                self.rotation.shift_input(axis, shift);
             }
         }
     }

@@ -15,7 +15,7 @@
 
 use super::gyroscopic::differences_known;
 use crate::accumulator::Accumulator;
-use crate::estimator::IdentifierView;
+use crate::estimator::{IdentifierView, InputShift};
 use crate::moments::{InputMoments, Substep};
 use crate::readout::Parameter;
 use crate::snapshot::{Archive, Stored, stored};
@@ -67,17 +67,6 @@ struct Axis {
     applied: f32,
     /// The square of what it may be off by, over that of the denominator.
     doubt: f32,
-}
-
-/// What is to be added to the identifier of an axis.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Shift {
-    /// x4, x5, x6 of the cascade.
-    pub input: [f32; 3],
-    /// Σ ω ẑ0 of the parameter.
-    pub denominator: f32,
-    /// The square of what its k may be off by, relative to itself, as γ may be.
-    pub doubt: f32,
 }
 
 /// Three axes.
@@ -143,8 +132,8 @@ impl Retroactive {
         view: &IdentifierView<3>,
         k: &[Option<Parameter>; 3],
         guesses: &[f32; 3],
-    ) -> Option<[Shift; 3]> {
-        let mut shifts = [Shift::default(); 3];
+    ) -> Option<[InputShift; 3]> {
+        let mut shifts = [InputShift::default(); 3];
         if view.blocks < self.blocks {
             self.begin_window(view);
             if view.blocks == 0 {
@@ -178,7 +167,8 @@ impl Retroactive {
             // k is read out a step later.
             shift.doubt = if doubt > axis.doubt { doubt } else { axis.doubt };
             axis.doubt = doubt;
-            for ((shift, used), own) in shift.input.iter_mut().zip(&mut axis.used.x).zip(axis.own.x) {
+            shift.tolerance = variance * (own * own);
+            for ((shift, used), own) in shift.cascade.iter_mut().zip(&mut axis.used.x).zip(axis.own.x) {
                 let wanted = gamma * own;
                 *shift = wanted - *used;
                 *used = wanted;

@@ -15,6 +15,22 @@ fn means_over_the_memory() {
     assert_eq!(level.variances(), [4.375, 8.75]);
 }
 
+/// What was counts as long as it is remembered: the level is no less than the mean of all residuals.
+#[test]
+fn noise_that_was() {
+    for (memory, expected) in
+        [(u16::MAX, (300.0 * 9.0 + 700.0) / 1000.0), (256, 1.0 + 8.0 * (255.0_f64 / 256.0).powi(700))]
+    {
+        let mut level = NoiseLevel::default();
+        for n in 0..1000 {
+            let value = if n < 300 { 9.0 } else { 1.0 };
+            level.add(value, value, 0.0, memory);
+            assert!(n >= 300 || level.variance() == 9.0);
+        }
+        assert!((f64::from(level.variance()) / expected - 1.0).abs() < 1e-3, "{memory}: {level:?} for {expected}");
+    }
+}
+
 /// The larger band counts, whichever it is; trusted from the eighth value on.
 #[test]
 fn the_larger_of_two() {

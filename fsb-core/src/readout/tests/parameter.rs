@@ -1,6 +1,6 @@
 //! When a parameter may be used.
 
-use super::super::{ParameterRule, ParameterState, ParameterStatus, Readout};
+use super::super::{CoarseStep, ParameterRule, ParameterState, ParameterStatus, Readout};
 use crate::checks::Checks;
 use crate::snapshot::{Archive, Stored};
 
@@ -27,7 +27,7 @@ fn tell(state: &mut ParameterState, k: f32, relative_sd: f32) {
     let z0 = libm::sqrtf(1e4 * state.ratio.denominator().max(1e-4));
     state.ratio.add(Readout::LeastSquares, z0 * k, z0, 0.0);
     state.ratio.fold();
-    state.step_coarsely(1e4, 0.0, 1.0);
+    state.step_coarsely(&CoarseStep { added: 1e4, noise: 0.0, ..CoarseStep::default() }, 1.0);
     let sd = relative_sd * k * 1e4;
     state.read_variance(Some(sd * sd), 1.0);
     state.read(true);
@@ -70,7 +70,7 @@ fn each_status_has_its_reason() {
     // A standard deviation of exactly what is asked for is enough.
     let mut exact = rule(0.5);
     exact.ratio.add(Readout::LeastSquares, 1.0, 1.0, 0.0);
-    exact.step_coarsely(1.0, 0.0, 0.0);
+    exact.step_coarsely(&CoarseStep { added: 1.0, noise: 0.0, ..CoarseStep::default() }, 0.0);
     exact.read_variance(Some(0.25), 1.0);
     exact.read(true);
     assert_eq!(exact.status, ParameterStatus::Valid);
@@ -148,7 +148,7 @@ fn the_variance_is_the_sum_of_its_causes() {
         let (z0, scale2) = (5.0_f32, 3.0);
         let mut state = open();
         state.ratio.add(Readout::LeastSquares, k * z0, z0, 0.0);
-        state.step_coarsely(z0 * z0, echo, 0.0);
+        state.step_coarsely(&CoarseStep { added: z0 * z0, noise: echo, ..CoarseStep::default() }, 0.0);
         state.read_variance(Some(variance), scale2);
         let information = f64::from(z0 * z0);
         let pull = 0.5 * f64::from(echo) / (f64::from(k) * information);
@@ -160,6 +160,31 @@ fn the_variance_is_the_sum_of_its_causes() {
     }
 }
 
+/// Of disturbances Σ (ω r)²/(Σ ω ẑ0)² counts, so many times as one of them lasts, in the proportion of what is remembered: a memory that fades
+/// fades in both.
+#[test]
+fn disturbances_count_as_they_went_in() {
+    const CORRELATION: f64 = 7.0;
+    for forgetting in [0.0_f32, 0.01] {
+        let mut state = open();
+        let (mut squares, mut information) = (0.0_f64, 0.0_f64);
+        let kept = 1.0 - f64::from(forgetting);
+        for n in 0..300_u16 {
+            let z0 = 3.0 + libm::sinf(0.1 * f32::from(n));
+            let beyond = if n % 50 == 20 { 0.4 } else { 0.0 };
+            state.ratio.add(Readout::LeastSquares, 2.0 * z0, z0, forgetting);
+            let step = CoarseStep { added: z0 * z0, weight: z0, disturbance: CORRELATION as f32 * beyond, noise: 0.0 };
+            state.step_coarsely(&step, forgetting);
+            squares = kept * kept * squares + f64::from(z0 * z0 * beyond);
+            information = kept * information + f64::from(z0 * z0);
+        }
+        state.read_variance(Some(0.0), 1.0);
+        let expected = CORRELATION * squares / (information * information);
+        let read = f64::from(variance_of(&mut state));
+        assert!((read / expected - 1.0).abs() < 1e-4, "{forgetting}: {read:e} for {expected:e}");
+    }
+}
+
 /// What noise adds fades as the information does: both end at 1/φ of what a step adds.
 #[test]
 fn the_sums_of_coarse_steps_fade() {
@@ -167,7 +192,7 @@ fn the_sums_of_coarse_steps_fade() {
     let mut state = open();
     state.ratio.add(Readout::LeastSquares, k, 1.0, 0.0);
     for _ in 0..400 {
-        state.step_coarsely(3.0, 0.5, forgetting);
+        state.step_coarsely(&CoarseStep { added: 3.0, noise: 0.5, ..CoarseStep::default() }, forgetting);
     }
     state.read_variance(Some(0.0), 1.0);
     // Σ ω ẑ0 = 30, Σ var ẑ2 = 5: the pull is ½ 5/(2 · 30).
@@ -182,7 +207,7 @@ fn every_member_counts() {
     let rule = ParameterRule::default().checked(&mut Checks::new());
     let mut state = ParameterState::start(3, None, rule);
     let due = |state: &mut ParameterState| {
-        state.step_coarsely(1.0, 0.0, 0.0);
+        state.step_coarsely(&CoarseStep { added: 1.0, noise: 0.0, ..CoarseStep::default() }, 0.0);
         core::mem::replace(&mut state.stale, false)
     };
     assert_eq!([(); 6].map(|()| due(&mut state)), [false, false, true, false, false, true]);

@@ -34,7 +34,7 @@ fn axis(k: f32, relative_sd: f32, common: &Common) -> Axis {
     let own = AxisDesign::new(0.0, Identify::NOTHING_ELSE).expect("valid");
     let reduced = triangle.keep(false, false, common.row_rate2);
     let mut axis = Axis::start(own);
-    (axis.triangle, axis.reduced) = (triangle, reduced);
+    (axis.triangle, axis.reduced, axis.excited) = (triangle, reduced, true);
     axis
 }
 

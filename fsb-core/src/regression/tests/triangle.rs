@@ -1,6 +1,6 @@
 //! The triangle, with all columns and without some.
 
-use super::super::reduced::Estimate;
+use super::super::reduced::{Estimate, Reduced, Unknown};
 use super::super::triangle::{Row, Triangle};
 use super::squares::{Numbers, Squares, both};
 
@@ -121,5 +121,32 @@ fn what_moves() {
         assert!(moving(10.0, 0.017) && !moving(10.0, 0.012));
         assert!(moving(-2.0, 0.0034) && !moving(-2.0, 0.0024));
         assert!(moving(0.0, 1.7e-6) && !moving(0.0, 1.2e-6) && !moving(0.0, 0.0));
+    }
+}
+
+/// What a term left out puts into k, D and d: what its column, added to the right-hand side, changes in them.
+#[test]
+fn what_is_left_out() {
+    const BY: f64 = 0.7;
+    let shifted = |by: usize| rows(400).map(move |row| [row[U], row[V], row[F], row[Y] + BY * row[by]]);
+    let reduced = |triangle: Triangle, disturbance, drag| triangle.keep(disturbance, drag, 0.01);
+    for (disturbance, drag) in [(false, false), (false, true), (true, false), (true, true)] {
+        let before = reduced(both(rows(400), 0.0).0, disturbance, drag);
+        for (column, kept) in [(U, disturbance), (V, drag)] {
+            let after = reduced(both(shifted(column), 0.0).0, disturbance, drag);
+            let by = |of: usize| if of == column { (BY * BY) as f32 } else { 0.0 };
+            let unknown = Unknown { disturbance_variance: by(U), drag_variance: by(V) };
+            let expected = |change: f32| if kept { 0.0 } else { f64::from(change * change) };
+            // For one k, so that what goes into D and d is what goes there directly.
+            let k = Estimate { value: 1.0, variance: 0.0 };
+            let drags = [before.drag(k, 1.0).value, after.drag(k, 1.0).value];
+            close(before.k_untold(&unknown), expected(after.k() - before.k()), "k");
+            close(before.drag_untold(&unknown), expected(drags[1] - drags[0]), "D");
+            if disturbance {
+                let d = |of: &Reduced, drag: f32| of.disturbance(k, drag, 1.0).value;
+                let change = d(&after, drags[1]) - d(&before, drags[0]);
+                close(before.disturbance_untold(&unknown), expected(change), "d");
+            }
+        }
     }
 }
