@@ -59,7 +59,7 @@ impl Parts<'_> {
         progress.substep = 0;
         if !(progress.all_measured && complete) {
             self.count_missing(y);
-            self.repair_positions(y, m1);
+            self.repair_positions(y, m1, gains.t_l2());
         }
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.observer.gains = gains;

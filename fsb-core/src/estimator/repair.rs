@@ -19,9 +19,9 @@ impl Parts<'_> {
         }
     }
 
-    /// First measurements, missing ones, and ones that cannot be right.
+    /// First measurements, missing ones, and ones that cannot be right. `m1` is that of the sample before, `t_l2` that of this one.
     #[inline(never)]
-    pub fn repair_positions(&mut self, y: &mut [f32], m1: f32) {
+    pub fn repair_positions(&mut self, y: &mut [f32], m1: f32, t_l2: f32) {
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.all_measured = true;
         // Back from a gap that was too long for the window.
@@ -31,6 +31,9 @@ impl Parts<'_> {
         for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {
             let parameter = self.parameters.get_mut(parameter_of(index, self.parameters));
             if y.abs() <= common.position_limit {
+                if axis.measured {
+                    axis.return_gently(*y, m1, t_l2);
+                }
                 axis.gap = 0;
                 if !axis.measured {
                     axis.measured = true;
@@ -84,5 +87,19 @@ impl Parts<'_> {
             self.begin_window(Known::Kept);
         }
         self.heed_contact();
+    }
+}
+
+impl Axis {
+    /// Before the step with `y`, the first measurement after a gap. What it is off by has come together over the whole gap; a velocity
+    /// corrected by more of it than a share of one in so many periods overshoots, and would do so the more the longer the gaps are.
+    fn return_gently(&mut self, y: f32, m1: f32, t_l2: f32) {
+        let most = 1.0 / (f32::from(self.gap) + 1.0);
+        if t_l2 > most {
+            let off = (most - t_l2) * (y - self.observer.predict(self.moments, &self.model, m1));
+            // The velocity alone moves: what is expected stays.
+            self.observer.push(off);
+            self.observer.translate(-off);
+        }
     }
 }
