@@ -42,7 +42,7 @@ fn flight(block: u32, missing: f64, nominal: Option<f64>, seed: u64) -> (f64, f6
 }
 
 /// The velocity's standard deviation is at least what it is worth, to 25 %, and three times that at most; and no k̂ is ever off
-/// by more than 5.5 of its own, 12 where nine measurements of ten are missing and the first few that tell the noise come late.
+/// by more than 5 of its own.
 #[test]
 fn the_noise_is_learned_from_what_came() {
     for (block, missing) in [(1, 0.5), (10, 0.5), (40, 0.5), (10, 0.9), (40, 0.9)] {
@@ -53,11 +53,10 @@ fn the_noise_is_learned_from_what_came() {
             worst = worst.max(off.abs());
         }
         let ratio = f64::sqrt(squares);
-        let most = if missing > 0.5 { 12.0 } else { 5.5 };
         println!(
             "blocks of {block}, {missing} missing: velocity {ratio:.2} of what is reported, k within {worst:.1} sd"
         );
-        assert!((0.33..1.25).contains(&ratio) && worst < most, "block {block}, {missing} missing: {ratio}, {worst}");
+        assert!((0.33..1.25).contains(&ratio) && worst < 5.0, "block {block}, {missing} missing: {ratio}, {worst}");
     }
 }
 
@@ -68,7 +67,7 @@ fn predictions_do_not_say_that_nothing_acts() {
     for (block, missing) in [(1, 0.1), (1, 0.3), (1, 0.5), (10, 0.1), (10, 0.5), (40, 0.1), (40, 0.5)] {
         let worst = (0..FLIGHTS).map(|seed| flight(block, missing, None, seed).1).fold(0.0, f64::max);
         println!("blocks of {block}, {missing} missing: k within {worst:.1} sd");
-        assert!(worst < 7.0, "block {block}, {missing} missing: {worst}");
+        assert!(worst < 5.0, "block {block}, {missing} missing: {worst}");
     }
 }
 
@@ -140,5 +139,42 @@ fn a_quick_observer_is_not_thrown_off_by_gaps() {
         }
         println!("λT {}, {missing} missing, seeds 0 to 59: velocity within {worst:.1} sd", lambda * period);
         assert!(worst < 10.0, "λ {lambda}, {missing} missing: {worst}");
+    }
+}
+
+/// Nor where most measurements are missing from the start, and what stands in for them is predicted with a first k that is 15 % too
+/// large: k̂ is never off by more than 7 of its standard deviations (it was by 15), and it becomes valid.
+#[test]
+fn predictions_with_a_wrong_k_are_not_taken_for_measurements() {
+    for (rate, block, missing) in
+        [(100.0, 1, 0.5), (100.0, 1, 0.7), (100.0, 1, 0.8), (1000.0, 10, 0.7), (1000.0, 10, 0.8)]
+    {
+        let period = 1.0 / rate;
+        let config = EstimatorConfig::<1, 1> {
+            block,
+            drift: [-9.81],
+            nominal: [Some(1.15 * 2.0)],
+            ..EstimatorConfig::new(period)
+        };
+        let (mut worst, mut valid) = (0.0_f64, 0);
+        for seed in 0..30 {
+            let mut estimator = Estimator::new(&config).expect("valid");
+            let mut random = Pcg64Mcg::seed_from_u64(seed);
+            let mut axis = HeldInputAxis { position: 0.3, velocity: 0.2, k: 2.0, drift: -9.81 };
+            for n in 0..(15.0 * rate) as u32 {
+                let noise: f64 = random.sample(StandardNormal);
+                let came = n == 0 || !random.random_bool(missing);
+                estimator.measure(&[came.then_some((axis.position + SIGMA * noise) as f32)]).expect("in step");
+                if let Some(found) = estimator.parameters()[0] {
+                    worst = worst.max(((f64::from(found.value) - 2.0) / f64::from(found.sd())).abs());
+                }
+                let force = ((9.81 + 3.0 * (2.0 * period * f64::from(n)).sin()) / 2.0) as f32;
+                estimator.apply(&[force]);
+                axis.step(f64::from(force), period);
+            }
+            valid += u32::from(estimator.parameters()[0].is_some());
+        }
+        println!("{rate} Hz, blocks of {block}, {missing} missing: k within {worst:.1} sd, valid in {valid} of 30");
+        assert!(worst < 7.0 && valid == 30, "{rate} Hz, {missing} missing: {worst}, {valid}");
     }
 }

@@ -153,7 +153,13 @@ impl Axis {
             );
         }
         let (up, down) = weight(common.readout, z2, z0);
-        let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
+        let mut heard = covariance.stride * up;
+        if self.noise.has_missed() {
+            // A block in which nothing came is not heard, and does not fade what is missing.
+            let came = common.block.length - f32::from(self.missed);
+            heard *= self.noise.stretch(covariance.fading() * (came * common.block.per_length));
+        }
+        let added = self.cross.step(heard, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
         let noise = match common.readout {
             Readout::LeastSquares => {

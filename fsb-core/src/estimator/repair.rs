@@ -54,6 +54,7 @@ impl Parts<'_> {
             }
             axis.missed = axis.missed.saturating_add(1);
             axis.gap = axis.gap.saturating_add(1);
+            axis.noise.miss(3.0 * common.identifier.c * common.block.per_length);
             if axis.measured && u32::from(axis.gap) == progress.observer.count {
                 axis.settled_at = common.settled_after(progress.observer.count);
                 axis.decide_use();

@@ -7,8 +7,11 @@
 //!   what the model lacks (drag, wind, a swinging load), which the first does not.
 //!
 //! The larger one counts. Beside them the filtered acceleration itself is averaged, in the same measure: what part of it
-//! the model leaves unexplained tells whether the model holds at all. Each is a mean over the past, at first of all values, later over the last 256, or as many as the read-out
-//! remembers.
+//! the model leaves unexplained tells whether the model holds at all. Each is a mean over the past,
+//! at first of all values, later over the last 256, or as many as the read-out remembers.
+//!
+//! What stands in for measurements that are missing is off by more than they would have been, and by the same for a whole gap:
+//! the share of them of late says by how much more the noise counts.
 
 use crate::snapshot::stored;
 
@@ -22,6 +25,8 @@ pub struct NoiseLevel {
     residual: f32,
     signal: f32,
     values: u16,
+    /// The share of the measurements of late that were missing, in 65536ths.
+    absent: u16,
 }
 
 impl NoiseLevel {
@@ -34,8 +39,12 @@ impl NoiseLevel {
     /// A residual of so many times the variance of the measurement noise may still be noise.
     const EXPLAINED: f32 = 25.0;
 
+    /// The noise counts for no more than so many times itself where measurements are missing: where most are, the level learned
+    /// from those that came after gaps tells of the predictions as well.
+    const STRETCH: f32 = 3.0;
+
     /// Nothing seen yet.
-    pub(crate) const UNKNOWN: Self = Self { fine: 0.0, slow: 0.0, residual: 0.0, signal: 0.0, values: 0 };
+    pub(crate) const UNKNOWN: Self = Self { fine: 0.0, slow: 0.0, residual: 0.0, signal: 0.0, values: 0, absent: 0 };
 
     /// The memory of a read-out that forgets by e^(-`fading`) from value to value.
     pub(crate) fn memory(fading: f32) -> u16 {
@@ -45,7 +54,7 @@ impl NoiseLevel {
 
     /// A level known beforehand; it counts as much as the least number of values that is trusted.
     pub(crate) const fn expected(variance: f32) -> Self {
-        Self { fine: variance, slow: variance, residual: 0.0, signal: 0.0, values: Self::ENOUGH }
+        Self { fine: variance, slow: variance, residual: 0.0, signal: 0.0, values: Self::ENOUGH, absent: 0 }
     }
 
     /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2. `memory`
@@ -60,6 +69,28 @@ impl NoiseLevel {
         let gain = 1.0 / f32::from(if self.values < Self::RECENT { self.values } else { Self::RECENT });
         self.residual += gain * (slow - self.residual);
         self.signal += gain * (signal - self.signal);
+    }
+
+    /// A measurement was missing; `gain` is the share that one measurement has in the memory.
+    pub(crate) fn miss(&mut self, gain: f32) {
+        let here = f32::from(u16::MAX - self.absent);
+        self.absent = self.absent.saturating_add((gain * here) as u16).saturating_add(1);
+    }
+
+    /// How many times the amplitude of the noise counts, one over the share that came. What is remembered of those that did not
+    /// fades by `fading`.
+    #[inline(never)]
+    pub(crate) fn stretch(&mut self, fading: f32) -> f32 {
+        let absent = f32::from(self.absent);
+        self.absent = (absent - fading * absent) as u16;
+        let came = 1.0 - absent * (1.0 / 65_536.0);
+        if came > 1.0 / Self::STRETCH { 1.0 / came } else { Self::STRETCH }
+    }
+
+    /// Whether measurements have been missing of late.
+    #[inline(always)]
+    pub(crate) const fn has_missed(&self) -> bool {
+        self.absent != 0
     }
 
     /// σ², in the square of the position's unit, of the means that the identifier works on.
@@ -97,4 +128,4 @@ pub(crate) fn innovation_step_gain(p: f32) -> f32 {
     4.0 * (5.0 - p * p) / (q * q * q)
 }
 
-stored!(NoiseLevel { fine, slow, residual, signal, values });
+stored!(NoiseLevel { fine, slow, residual, signal, values, absent });

@@ -49,3 +49,26 @@ fn the_misfit() {
     let (unexplained, signal) = level.misfit();
     assert!((unexplained - 26.0).abs() < 1e-3 && (signal - 1.0).abs() < 1e-3, "{unexplained}, {signal}");
 }
+
+/// The noise counts once where nothing is missing, twice where every other measurement is, three times at most; and what was missing is
+/// forgotten.
+#[test]
+fn what_was_missing() {
+    for (missing, times) in [(0.0_f32, 1.0), (0.5, 2.0), (0.6, 2.5), (0.9, 3.0)] {
+        let (mut level, mut due, mut stretch) = (NoiseLevel::default(), 0.0, 1.0);
+        for _ in 0..4000 {
+            due += missing;
+            if due >= 1.0 {
+                due -= 1.0;
+                level.miss(0.01);
+            } else if level.has_missed() {
+                stretch = level.stretch(0.01);
+            }
+        }
+        assert!((stretch - times).abs() < 0.03 * times, "{missing}: {stretch}");
+        for _ in 0..1000 {
+            stretch = level.stretch(0.01);
+        }
+        assert!(!level.has_missed() && stretch < 1.002, "{missing}: {stretch}");
+    }
+}
