@@ -154,10 +154,10 @@ impl Axis {
         }
         let (up, down) = weight(common.readout, z2, z0);
         let mut heard = covariance.stride * up;
-        if self.noise.has_missed() {
-            // A block in which nothing came is not heard, and does not fade what is missing.
-            let came = common.block.length - f32::from(self.missed);
-            heard *= self.noise.stretch(covariance.fading() * (came * common.block.per_length));
+        if self.noise.has_gaps() {
+            // A block in which nothing came is not heard, and does not fade what was missing.
+            let came = 1.0 - f32::from(self.missed) * common.block.per_length;
+            heard *= self.noise.stretch(covariance.fading(), came);
         }
         let added = self.cross.step(heard, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());

@@ -2,6 +2,7 @@
 
 use super::anew::Known;
 use super::axis::{Axis, Clocks, Source};
+use super::design::Common;
 use super::parts::{Frame, Parts, parameter_of};
 use crate::identifier::longest_gap;
 
@@ -31,8 +32,8 @@ impl Parts<'_> {
         for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {
             let parameter = self.parameters.get_mut(parameter_of(index, self.parameters));
             if y.abs() <= common.position_limit {
-                if axis.measured {
-                    axis.return_gently(*y, m1, t_l2);
+                if axis.measured && axis.gap > 0 {
+                    axis.come_back(*y, m1, t_l2, common);
                 }
                 axis.gap = 0;
                 if !axis.measured {
@@ -53,8 +54,8 @@ impl Parts<'_> {
                 continue;
             }
             axis.missed = axis.missed.saturating_add(1);
+            axis.go_missing(common);
             axis.gap = axis.gap.saturating_add(1);
-            axis.noise.miss(3.0 * common.identifier.c * common.block.per_length);
             if axis.measured && u32::from(axis.gap) == progress.observer.count {
                 axis.settled_at = common.settled_after(progress.observer.count);
                 axis.decide_use();
@@ -92,15 +93,29 @@ impl Parts<'_> {
 }
 
 impl Axis {
+    /// Before the step with what stands in for a measurement. At first that is off by what the last one was off by.
+    fn go_missing(&mut self, common: &Common) {
+        let (share, per_length) = (common.covariance.share(), common.block.per_length);
+        self.noise.miss(share * per_length);
+        if self.gap == 0 {
+            self.noise.come_back(1.0, 2.0 * self.observer.innovation(), share * (per_length * per_length));
+        }
+    }
+
     /// Before the step with `y`, the first measurement after a gap. What it is off by has come together over the whole gap; a velocity
     /// corrected by more of it than a share of one in so many periods overshoots, and would do so the more the longer the gaps are.
-    fn return_gently(&mut self, y: f32, m1: f32, t_l2: f32) {
-        let most = 1.0 / (f32::from(self.gap) + 1.0);
+    fn come_back(&mut self, y: f32, m1: f32, t_l2: f32, common: &Common) {
+        let gap = f32::from(self.gap);
+        let off = y - self.observer.predict(self.moments, &self.model, m1);
+        // A mean over a block has so much less of it.
+        let per_length = common.block.per_length;
+        self.noise.come_back(gap, off, common.covariance.share() * (per_length * per_length));
+        let most = 1.0 / (gap + 1.0);
         if t_l2 > most {
-            let off = (most - t_l2) * (y - self.observer.predict(self.moments, &self.model, m1));
             // The velocity alone moves: what is expected stays.
-            self.observer.push(off);
-            self.observer.translate(-off);
+            let by = (most - t_l2) * off;
+            self.observer.push(by);
+            self.observer.translate(-by);
         }
     }
 }

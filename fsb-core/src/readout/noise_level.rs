@@ -25,6 +25,8 @@ pub struct NoiseLevel {
     residual: f32,
     signal: f32,
     values: u16,
+    /// The mean square of late, of the noise's kind, that stands for the errors of what stood in for missing measurements.
+    gaps: f32,
     /// The share of the measurements of late that were missing, in 65536ths.
     absent: u16,
 }
@@ -39,12 +41,16 @@ impl NoiseLevel {
     /// A residual of so many times the variance of the measurement noise may still be noise.
     const EXPLAINED: f32 = 25.0;
 
-    /// The noise counts for no more than so many times itself where measurements are missing: where most are, the level learned
-    /// from those that came after gaps tells of the predictions as well.
+    /// Where most measurements are missing, the level learned from those that came after gaps tells of the predictions as well.
     const STRETCH: f32 = 3.0;
+    /// No more than so many times the variance of the measurement noise, as a number to reckon with.
+    const MOST: f32 = 1e8;
+    /// A mean square below this is none; well above the subnormal numbers.
+    const NOTHING: f32 = 1e-30;
 
     /// Nothing seen yet.
-    pub(crate) const UNKNOWN: Self = Self { fine: 0.0, slow: 0.0, residual: 0.0, signal: 0.0, values: 0, absent: 0 };
+    pub(crate) const UNKNOWN: Self =
+        Self { fine: 0.0, slow: 0.0, residual: 0.0, signal: 0.0, values: 0, gaps: 0.0, absent: 0 };
 
     /// The memory of a read-out that forgets by e^(-`fading`) from value to value.
     pub(crate) fn memory(fading: f32) -> u16 {
@@ -54,7 +60,7 @@ impl NoiseLevel {
 
     /// A level known beforehand; it counts as much as the least number of values that is trusted.
     pub(crate) const fn expected(variance: f32) -> Self {
-        Self { fine: variance, slow: variance, residual: 0.0, signal: 0.0, values: Self::ENOUGH, absent: 0 }
+        Self { fine: variance, slow: variance, residual: 0.0, signal: 0.0, values: Self::ENOUGH, gaps: 0.0, absent: 0 }
     }
 
     /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2. `memory`
@@ -77,20 +83,38 @@ impl NoiseLevel {
         self.absent = self.absent.saturating_add((gain * here) as u16).saturating_add(1);
     }
 
-    /// How many times the amplitude of the noise counts, one over the share that came. What is remembered of those that did not
-    /// fades by `fading`.
-    #[inline(never)]
-    pub(crate) fn stretch(&mut self, fading: f32) -> f32 {
-        let absent = f32::from(self.absent);
-        self.absent = (absent - fading * absent) as u16;
-        let came = 1.0 - absent * (1.0 / 65_536.0);
-        if came > 1.0 / Self::STRETCH { 1.0 / came } else { Self::STRETCH }
+    /// After a gap of `missing` measurements the first one is `off` from what was expected: what stood in for those that are missing
+    /// was off by about half of that, and all of it the same way. `gain` is the share that one measurement has in the memory.
+    pub(crate) fn come_back(&mut self, missing: f32, off: f32, gain: f32) {
+        self.gaps += gain * (0.25 * missing * (off * off));
     }
 
-    /// Whether measurements have been missing of late.
+    /// A new window: what stood in for measurements before is not in it.
+    pub(crate) fn forget_gaps(&mut self) {
+        (self.gaps, self.absent) = (0.0, 0);
+    }
+
+    /// How many times the amplitude of the noise counts: at least one over the share that came, three times at most, and what the
+    /// predictions were found to be off by. What is remembered of the gaps fades by `fading`, of what was missing by `came` of that.
+    #[inline(never)]
+    pub(crate) fn stretch(&mut self, fading: f32, came: f32) -> f32 {
+        let absent = f32::from(self.absent);
+        let here = 1.0 - absent * (1.0 / 65_536.0);
+        let least = if here > 1.0 / Self::STRETCH { 1.0 / (here * here) } else { Self::STRETCH * Self::STRETCH };
+        let found = 1.0 + self.gaps / self.fine;
+        self.absent = (absent - fading * came * absent) as u16;
+        self.gaps -= fading * self.gaps;
+        if self.gaps < Self::NOTHING {
+            self.gaps = 0.0;
+        }
+        let times = if found > least { found } else { least };
+        libm::sqrtf(if times < Self::MOST { times } else { Self::MOST })
+    }
+
+    /// Whether there have been gaps of late.
     #[inline(always)]
-    pub(crate) const fn has_missed(&self) -> bool {
-        self.absent != 0
+    pub(crate) fn has_gaps(&self) -> bool {
+        self.absent > 0 || self.gaps > 0.0
     }
 
     /// σ², in the square of the position's unit, of the means that the identifier works on.
@@ -128,4 +152,4 @@ pub(crate) fn innovation_step_gain(p: f32) -> f32 {
     4.0 * (5.0 - p * p) / (q * q * q)
 }
 
-stored!(NoiseLevel { fine, slow, residual, signal, values, absent });
+stored!(NoiseLevel { fine, slow, residual, signal, values, gaps, absent });
