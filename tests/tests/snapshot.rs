@@ -1,6 +1,7 @@
 //! Snapshots: what is restored goes on to the last bit; what is no snapshot of this estimator is refused.
 
 use fsb_core::guard::{GuardConfig, Guarded};
+use fsb_core::readout::Memory;
 use fsb_core::snapshot::SnapshotError;
 use fsb_core::{Estimator, EstimatorConfig};
 use fsb_sim_host::plant::{Motion, Recording, RecordingConfig, record};
@@ -230,6 +231,29 @@ proptest! {
                     prop_assert!(state.position.is_finite() && state.velocity.is_finite(), "{state:?}");
                 }
             }
+        }
+    }
+}
+
+/// A sensor that stands still while the input changes: k is as good as zero and its variance next to infinite, and a snapshot is taken back
+/// all the same.
+#[test]
+fn of_a_sensor_that_stands_still() {
+    for step in 0..60_i16 {
+        let noise = 1e-6 * 10_f64.powf(f64::from(step) / 10.0);
+        let config = EstimatorConfig::<1, 1> {
+            noise_sd: Some(noise),
+            memory: Memory::Fading { tau: 3.0 },
+            ..EstimatorConfig::new(0.01)
+        };
+        let mut estimator = Estimator::new(&config).unwrap();
+        let mut restored = estimator;
+        for n in 0..300_u16 {
+            estimator.measure(&[Some(0.5)]).unwrap();
+            let mut bytes = vec![0; estimator.snapshot_length()];
+            estimator.snapshot(&mut bytes).unwrap();
+            assert_eq!(restored.restore(&bytes), Ok(()), "noise {noise}, {n}");
+            estimator.apply(&[(0.03 * f32::from(n)).sin()]);
         }
     }
 }
