@@ -189,3 +189,49 @@ fn predictions_with_a_wrong_k_are_not_taken_for_measurements() {
         assert!(worst < 8.0 && valid == 30, "{rate} Hz, {missing} missing: {worst}, {valid}");
     }
 }
+
+/// An axis that was lost before its parameter was known (predicted beyond the limit) takes part again once it is measured again: its k becomes
+/// valid within 2 s.
+#[test]
+fn a_lost_axis_takes_part_again() {
+    for (block, pooled) in [(1, false), (5, false), (1, true), (5, true)] {
+        let mut rng = Pcg64Mcg::seed_from_u64(7);
+        let shared = EstimatorConfig::<2, 2> {
+            block,
+            nominal: [Some(2.0); 2],
+            position_limit: 50.0,
+            ..EstimatorConfig::new(0.01)
+        };
+        let alone =
+            EstimatorConfig::<2, 1> { block, nominal: [Some(2.0)], position_limit: 50.0, ..EstimatorConfig::new(0.01) };
+        let (mut own, mut one) = (Estimator::new(&shared).expect("valid"), Estimator::new(&alone).expect("valid"));
+        let rest = HeldInputAxis { position: 0.3, velocity: 0.0, k: 2.0, drift: 0.0 };
+        let mut axes = [rest, HeldInputAxis { velocity: 20.0, ..rest }];
+        for n in 0..1200_u32 {
+            if n == 1000 {
+                axes[1] = rest;
+            }
+            let y = std::array::from_fn(|i| {
+                let noise: f64 = rng.sample(StandardNormal);
+                (i == 0 || !(8..1000).contains(&n)).then_some((axes[i].position + SIGMA * noise) as f32)
+            });
+            own.measure(&y).expect("in step");
+            one.measure(&y).expect("in step");
+            // The pooled one has nothing to go by but the second axis.
+            let force = [if pooled { 0.0 } else { 1.0 }, (0.05 * f64::from(n)).sin() as f32];
+            own.apply(&force);
+            one.apply(&force);
+            for (axis, f) in axes.iter_mut().zip(force) {
+                axis.step(f64::from(f), 0.01);
+            }
+        }
+        let found = if pooled { one.parameters()[0] } else { own.parameters()[1] };
+        println!(
+            "blocks of {block}, pooled {pooled}: {found:?} {:?} {:?}",
+            own.parameter_status(),
+            one.parameter_status()
+        );
+        let found = found.expect("valid again");
+        assert!((found.value - 2.0).abs() < 5.0 * found.sd().max(1e-4), "blocks of {block}: {found:?}");
+    }
+}

@@ -25,9 +25,10 @@ impl Parts<'_> {
     pub fn repair_positions(&mut self, y: &mut [f32], m1: f32, t_l2: f32) {
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.all_measured = true;
-        // Back from a gap that was too long for the window.
+        // Back from a gap that was too long for the window, or from where it was lost: it takes part from the next window on.
         let (limit, longest) = (common.position_limit, longest_gap(common.late_settle));
-        let back = |axis: &Axis, y: f32| axis.present && u32::from(axis.gap) >= longest && y.abs() <= limit;
+        let gone = |axis: &Axis| !axis.measured || axis.present && u32::from(axis.gap) >= longest;
+        let back = |axis: &Axis, y: f32| gone(axis) && y.abs() <= limit;
         let reopen = progress.identifier.blocks > 0 && axes.iter().zip(y.iter()).any(|(axis, y)| back(axis, *y));
         for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {
             let parameter = self.parameters.get_mut(parameter_of(index, self.parameters));
