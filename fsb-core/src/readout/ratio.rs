@@ -12,7 +12,8 @@ pub enum Readout {
     /// k = Σ ẑ2 ẑ0 / Σ ẑ0². Keeps the sign of k; unbiased by noise in ẑ2; close to the Cramér-Rao bound.
     #[default]
     LeastSquares,
-    /// k = Σ|ẑ2| / Σ|ẑ0|, (44), the paper's. Loses the sign; reads too high where the excitation is weak against the noise.
+    /// k = Σ|ẑ2| / Σ|ẑ0|, (44), the paper's. Loses the sign; reads too high where the excitation is weak against the noise, which
+    /// is not in the variance of k: up to 9 of its standard deviations in random flights that swing across zero.
     AbsoluteRatio,
 }
 
