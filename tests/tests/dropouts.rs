@@ -2,7 +2,8 @@
 //!
 //! A prediction in place of a measurement has no innovation: taken for a sample of the noise it would say that there is none.
 
-use fsb_core::{Estimator, EstimatorConfig};
+use fsb_core::estimator::Learning;
+use fsb_core::{Estimator, EstimatorConfig, Tuning};
 use fsb_sim_host::plant::HeldInputAxis;
 use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
@@ -41,7 +42,7 @@ fn flight(block: u32, missing: f64, nominal: Option<f64>, seed: u64) -> (f64, f6
 }
 
 /// The velocity's standard deviation is at least what it is worth, to 25 %, and three times that at most; and no k̂ is ever off
-/// by more than 5.5 of its own, 12 where nine measurements of ten are missing and the first few that tell the noise come late.
+/// by more than 5 of its own.
 #[test]
 fn the_noise_is_learned_from_what_came() {
     for (block, missing) in [(1, 0.5), (10, 0.5), (40, 0.5), (10, 0.9), (40, 0.9)] {
@@ -52,11 +53,10 @@ fn the_noise_is_learned_from_what_came() {
             worst = worst.max(off.abs());
         }
         let ratio = f64::sqrt(squares);
-        let most = if missing > 0.5 { 12.0 } else { 5.5 };
         println!(
             "blocks of {block}, {missing} missing: velocity {ratio:.2} of what is reported, k within {worst:.1} sd"
         );
-        assert!((0.33..1.25).contains(&ratio) && worst < most, "block {block}, {missing} missing: {ratio}, {worst}");
+        assert!((0.33..1.25).contains(&ratio) && worst < 5.0, "block {block}, {missing} missing: {ratio}, {worst}");
     }
 }
 
@@ -67,7 +67,7 @@ fn predictions_do_not_say_that_nothing_acts() {
     for (block, missing) in [(1, 0.1), (1, 0.3), (1, 0.5), (10, 0.1), (10, 0.5), (40, 0.1), (40, 0.5)] {
         let worst = (0..FLIGHTS).map(|seed| flight(block, missing, None, seed).1).fold(0.0, f64::max);
         println!("blocks of {block}, {missing} missing: k within {worst:.1} sd");
-        assert!(worst < 7.0, "block {block}, {missing} missing: {worst}");
+        assert!(worst < 5.0, "block {block}, {missing} missing: {worst}");
     }
 }
 
@@ -101,5 +101,137 @@ fn no_velocity_from_one_measurement() {
             let expected = if missing == 0 { 1 } else { (10 * (missing + 1)).min(missing + (0.8 / period) as u32) };
             assert!(worst < 0.04 && since == Some(expected), "T {period}, {missing}: {worst} from {since:?} on");
         }
+    }
+}
+
+/// With nine measurements of ten missing the observer stays what it is where λT is large as well: the velocity is within 10 of its
+/// standard deviations from 8 s on, in 60 flights each. (It was off by up to 2e4 m/s: each measurement after a gap corrected the velocity by
+/// several times what it was off.)
+#[test]
+fn a_quick_observer_is_not_thrown_off_by_gaps() {
+    for (lambda, missing) in [(14.0, 0.8), (18.0, 0.8), (18.0, 0.9)] {
+        let period = 0.05;
+        let config = EstimatorConfig::<1, 1> {
+            nominal: [Some(2.0)],
+            noise_sd: Some(SIGMA),
+            observer: Tuning { lambda, q: 0.5 * lambda },
+            ..EstimatorConfig::new(period)
+        };
+        let mut worst = 0.0_f64;
+        for seed in 0..60 {
+            let mut estimator = Estimator::new(&config).expect("valid");
+            estimator.set_learning(Learning::Off);
+            let mut random = Pcg64Mcg::seed_from_u64(seed);
+            let mut axis = HeldInputAxis { position: 0.3, velocity: 0.2, k: 2.0, drift: 0.0 };
+            for n in 0..300_u32 {
+                let noise: f64 = random.sample(StandardNormal);
+                let came = n == 0 || !random.random_bool(missing);
+                estimator.measure(&[came.then_some((axis.position + SIGMA * noise) as f32)]).expect("in step");
+                if n >= 160 {
+                    let (state, sd) =
+                        (estimator.states()[0].expect("nominal"), estimator.state_sd()[0].expect("known"));
+                    worst = worst.max(((f64::from(state.velocity) - axis.velocity) / f64::from(sd.velocity)).abs());
+                }
+                let force = (2.0 * period * f64::from(n)).sin() as f32;
+                estimator.apply(&[force]);
+                axis.step(f64::from(force), period);
+            }
+        }
+        println!("λT {}, {missing} missing, seeds 0 to 59: velocity within {worst:.1} sd", lambda * period);
+        assert!(worst < 10.0, "λ {lambda}, {missing} missing: {worst}");
+    }
+}
+
+/// Nor where measurements are missing from the start, and what stands in for them is predicted with a first k that is wrong: k̂ is never
+/// off by more than 8 of its standard deviations (it was by 15 where most are missing, by 160 where the noise is small beside
+/// what the predictions are off by), and it becomes valid.
+#[test]
+fn predictions_with_a_wrong_k_are_not_taken_for_measurements() {
+    for (rate, block, missing, first, sigma) in [
+        (100.0, 1, 0.5, 1.15, 1e-3),
+        (100.0, 1, 0.8, 1.15, 1e-3),
+        (1000.0, 10, 0.7, 1.15, 1e-3),
+        (1000.0, 10, 0.8, 1.15, 1e-3),
+        (100.0, 5, 0.2, 1.5, 2.5e-5),
+        (100.0, 1, 0.1, 0.8, 2.5e-5),
+        (500.0, 10, 0.2, 1.5, 1e-5),
+    ] {
+        let period = 1.0 / rate;
+        let config = EstimatorConfig::<1, 1> {
+            block,
+            drift: [-9.81],
+            nominal: [Some(first * 2.0)],
+            noise_sd: (sigma < SIGMA).then_some(sigma),
+            ..EstimatorConfig::new(period)
+        };
+        let (mut worst, mut valid) = (0.0_f64, 0);
+        for seed in 0..30 {
+            let mut estimator = Estimator::new(&config).expect("valid");
+            let mut random = Pcg64Mcg::seed_from_u64(seed);
+            let mut axis = HeldInputAxis { position: 0.3, velocity: 0.2, k: 2.0, drift: -9.81 };
+            for n in 0..(15.0 * rate) as u32 {
+                let noise: f64 = random.sample(StandardNormal);
+                let came = n == 0 || !random.random_bool(missing);
+                estimator.measure(&[came.then_some((axis.position + sigma * noise) as f32)]).expect("in step");
+                if let Some(found) = estimator.parameters()[0] {
+                    worst = worst.max(((f64::from(found.value) - 2.0) / f64::from(found.sd()).max(2e-6)).abs());
+                }
+                let force =
+                    ((9.81 - axis.velocity - axis.position + 3.0 * (2.0 * period * f64::from(n)).sin()) / 2.0) as f32;
+                estimator.apply(&[force]);
+                axis.step(f64::from(force), period);
+            }
+            valid += u32::from(estimator.parameters()[0].is_some());
+        }
+        println!(
+            "{rate} Hz, blocks of {block}, {missing} missing, seeds 0 to 29: k within {worst:.1} sd, valid in {valid}"
+        );
+        assert!(worst < 8.0 && valid == 30, "{rate} Hz, {missing} missing: {worst}, {valid}");
+    }
+}
+
+/// An axis that was lost before its parameter was known (predicted beyond the limit) takes part again once it is measured again: its k becomes
+/// valid within 2 s.
+#[test]
+fn a_lost_axis_takes_part_again() {
+    for (block, pooled) in [(1, false), (5, false), (1, true), (5, true)] {
+        let mut rng = Pcg64Mcg::seed_from_u64(7);
+        let shared = EstimatorConfig::<2, 2> {
+            block,
+            nominal: [Some(2.0); 2],
+            position_limit: 50.0,
+            ..EstimatorConfig::new(0.01)
+        };
+        let alone =
+            EstimatorConfig::<2, 1> { block, nominal: [Some(2.0)], position_limit: 50.0, ..EstimatorConfig::new(0.01) };
+        let (mut own, mut one) = (Estimator::new(&shared).expect("valid"), Estimator::new(&alone).expect("valid"));
+        let rest = HeldInputAxis { position: 0.3, velocity: 0.0, k: 2.0, drift: 0.0 };
+        let mut axes = [rest, HeldInputAxis { velocity: 20.0, ..rest }];
+        for n in 0..1200_u32 {
+            if n == 1000 {
+                axes[1] = rest;
+            }
+            let y = std::array::from_fn(|i| {
+                let noise: f64 = rng.sample(StandardNormal);
+                (i == 0 || !(8..1000).contains(&n)).then_some((axes[i].position + SIGMA * noise) as f32)
+            });
+            own.measure(&y).expect("in step");
+            one.measure(&y).expect("in step");
+            // The pooled one has nothing to go by but the second axis.
+            let force = [if pooled { 0.0 } else { 1.0 }, (0.05 * f64::from(n)).sin() as f32];
+            own.apply(&force);
+            one.apply(&force);
+            for (axis, f) in axes.iter_mut().zip(force) {
+                axis.step(f64::from(f), 0.01);
+            }
+        }
+        let found = if pooled { one.parameters()[0] } else { own.parameters()[1] };
+        println!(
+            "blocks of {block}, pooled {pooled}: {found:?} {:?} {:?}",
+            own.parameter_status(),
+            one.parameter_status()
+        );
+        let found = found.expect("valid again");
+        assert!((found.value - 2.0).abs() < 5.0 * found.sd().max(1e-4), "blocks of {block}: {found:?}");
     }
 }

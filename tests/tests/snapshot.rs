@@ -1,6 +1,7 @@
 //! Snapshots: what is restored goes on to the last bit; what is no snapshot of this estimator is refused.
 
 use fsb_core::guard::{GuardConfig, Guarded};
+use fsb_core::readout::Memory;
 use fsb_core::snapshot::SnapshotError;
 use fsb_core::{Estimator, EstimatorConfig};
 use fsb_sim_host::plant::{Motion, Recording, RecordingConfig, record};
@@ -230,6 +231,56 @@ proptest! {
                     prop_assert!(state.position.is_finite() && state.velocity.is_finite(), "{state:?}");
                 }
             }
+        }
+    }
+}
+
+/// A sensor that stands still while the input changes: k is as good as zero and its variance next to infinite, and a snapshot is taken back
+/// all the same.
+#[test]
+fn of_a_sensor_that_stands_still() {
+    for step in 0..60_i16 {
+        let noise = 1e-6 * 10_f64.powf(f64::from(step) / 10.0);
+        let config = EstimatorConfig::<1, 1> {
+            noise_sd: Some(noise),
+            memory: Memory::Fading { tau: 3.0 },
+            ..EstimatorConfig::new(0.01)
+        };
+        let mut estimator = Estimator::new(&config).unwrap();
+        let mut restored = estimator;
+        for n in 0..300_u16 {
+            estimator.measure(&[Some(0.5)]).unwrap();
+            let mut bytes = vec![0; estimator.snapshot_length()];
+            estimator.snapshot(&mut bytes).unwrap();
+            assert_eq!(restored.restore(&bytes), Ok(()), "noise {noise}, {n}");
+            estimator.apply(&[(0.03 * f32::from(n)).sin()]);
+        }
+    }
+}
+
+/// Nor does an axis that was lost and is measured again, which takes no part in the identification, make a state that is refused.
+#[test]
+fn of_an_axis_that_was_lost() {
+    for block in [1, 2, 5, 20] {
+        let config = EstimatorConfig::<2, 2> {
+            block,
+            nominal: [Some(1.0); 2],
+            position_limit: 100.0,
+            ..EstimatorConfig::new(0.01)
+        };
+        let mut estimator = Estimator::new(&config).unwrap();
+        let mut restored = estimator;
+        for n in 0..8000_u16 {
+            // It leaves at 10 m/s, is not seen for 25 s, and is back.
+            let away = (500..3000).contains(&n);
+            let y = if n < 500 { 0.1 * f32::from(n) } else { 1.0 };
+            estimator.measure(&[Some(0.5), (!away).then_some(y)]).unwrap();
+            if n % 50 == 0 {
+                let mut bytes = vec![0; estimator.snapshot_length()];
+                estimator.snapshot(&mut bytes).unwrap();
+                assert_eq!(restored.restore(&bytes), Ok(()), "blocks of {block}, {n}");
+            }
+            estimator.apply(&[(0.03 * f32::from(n)).sin(), 0.1]);
         }
     }
 }

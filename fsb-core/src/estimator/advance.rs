@@ -5,6 +5,7 @@ use super::axis::Clocks;
 use super::identify::{Misfit, SingleRound};
 use super::output::Learning;
 use super::parts::{Frame, Parts, parameter_of};
+use crate::identifier::BlockMeans;
 
 /// Counts of measurements are kept below about this: three days at 8 kHz.
 pub(super) const LONG_AGO: u32 = 1 << 31;
@@ -59,7 +60,7 @@ impl Parts<'_> {
         progress.substep = 0;
         if !(progress.all_measured && complete) {
             self.count_missing(y);
-            self.repair_positions(y, m1);
+            self.repair_positions(y, m1, gains.t_l2());
         }
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.observer.gains = gains;
@@ -193,6 +194,9 @@ impl Parts<'_> {
             if axis.present {
                 let mean = axis.block.complete(&common.block);
                 axis.identify_block(mean, &progress.identifier, parameter, common);
+            } else {
+                // Blocks that begin and are never completed would grow without bounds.
+                axis.block = BlockMeans::default();
             }
             // Sums are folded, the parameter is read, the observer follows.
             axis.observer.fold();

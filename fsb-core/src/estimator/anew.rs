@@ -60,6 +60,7 @@ impl Axis {
                 common.noise
             };
         }
+        self.noise.forget_gaps();
         (self.cascade, self.cross, self.block) = Default::default();
         (self.begun, self.present, self.missed) = (false, false, 0);
     }

@@ -154,12 +154,18 @@ impl Axis {
             );
         }
         let (up, down) = weight(common.readout, z2, z0);
-        let added = self.cross.step(covariance.stride * up, &clock.shape, covariance);
+        let mut stretch = 1.0;
+        if self.noise.has_gaps() {
+            // A block in which nothing came is not heard, and does not fade what was missing.
+            let came = 1.0 - f32::from(self.missed) * common.block.per_length;
+            stretch = self.noise.stretch(covariance.fading(), came);
+        }
+        let added = self.cross.step(covariance.stride * up * stretch, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());
         let of_noise = self.noise.measurement_variance() * clock.shape.variance() * common.identifier.scale2();
         // What k̂ and the input may be off by is no disturbance.
         let tolerated = quotient * quotient * self.tolerance + parameter.undisturbed_variance(quotient) * z0 * z0;
-        let beyond = residual * residual - NoiseLevel::EXPLAINED * (of_noise + tolerated);
+        let beyond = residual * residual - NoiseLevel::EXPLAINED * (of_noise * (stretch * stretch) + tolerated);
         let disturbance = if beyond > 0.0 && self.noise.is_known() { covariance.correlation * beyond } else { 0.0 };
         let (noise, disturbance) = match common.readout {
             Readout::LeastSquares => (of_noise, disturbance),

@@ -2,6 +2,7 @@
 
 use super::anew::Known;
 use super::axis::{Axis, Clocks, Source};
+use super::design::Common;
 use super::parts::{Frame, Parts, parameter_of};
 use crate::identifier::longest_gap;
 
@@ -19,18 +20,22 @@ impl Parts<'_> {
         }
     }
 
-    /// First measurements, missing ones, and ones that cannot be right.
+    /// First measurements, missing ones, and ones that cannot be right. `m1` is that of the sample before, `t_l2` that of this one.
     #[inline(never)]
-    pub fn repair_positions(&mut self, y: &mut [f32], m1: f32) {
+    pub fn repair_positions(&mut self, y: &mut [f32], m1: f32, t_l2: f32) {
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.all_measured = true;
-        // Back from a gap that was too long for the window.
+        // Back from a gap that was too long for the window, or from where it was lost: it takes part from the next window on.
         let (limit, longest) = (common.position_limit, longest_gap(common.late_settle));
-        let back = |axis: &Axis, y: f32| axis.present && u32::from(axis.gap) >= longest && y.abs() <= limit;
+        let gone = |axis: &Axis| !axis.measured || axis.present && u32::from(axis.gap) >= longest;
+        let back = |axis: &Axis, y: f32| gone(axis) && y.abs() <= limit;
         let reopen = progress.identifier.blocks > 0 && axes.iter().zip(y.iter()).any(|(axis, y)| back(axis, *y));
         for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {
             let parameter = self.parameters.get_mut(parameter_of(index, self.parameters));
             if y.abs() <= common.position_limit {
+                if axis.measured && axis.gap > 0 {
+                    axis.come_back(*y, m1, t_l2, common);
+                }
                 axis.gap = 0;
                 if !axis.measured {
                     axis.measured = true;
@@ -50,6 +55,7 @@ impl Parts<'_> {
                 continue;
             }
             axis.missed = axis.missed.saturating_add(1);
+            axis.go_missing(common);
             axis.gap = axis.gap.saturating_add(1);
             if axis.measured && u32::from(axis.gap) == progress.observer.count {
                 axis.settled_at = common.settled_after(progress.observer.count);
@@ -84,5 +90,33 @@ impl Parts<'_> {
             self.begin_window(Known::Kept);
         }
         self.heed_contact();
+    }
+}
+
+impl Axis {
+    /// Before the step with what stands in for a measurement. At first that is off by what the last one was off by.
+    fn go_missing(&mut self, common: &Common) {
+        let (share, per_length) = (common.covariance.share(), common.block.per_length);
+        self.noise.miss(share * per_length);
+        if self.gap == 0 {
+            self.noise.come_back(1.0, 2.0 * self.observer.innovation(), share * (per_length * per_length));
+        }
+    }
+
+    /// Before the step with `y`, the first measurement after a gap. What it is off by has come together over the whole gap; a velocity
+    /// corrected by more of it than a share of one in so many periods overshoots, and would do so the more the longer the gaps are.
+    fn come_back(&mut self, y: f32, m1: f32, t_l2: f32, common: &Common) {
+        let gap = f32::from(self.gap);
+        let off = y - self.observer.predict(self.moments, &self.model, m1);
+        // A mean over a block has so much less of it.
+        let per_length = common.block.per_length;
+        self.noise.come_back(gap, off, common.covariance.share() * (per_length * per_length));
+        let most = 1.0 / (gap + 1.0);
+        if t_l2 > most {
+            // The velocity alone moves: what is expected stays.
+            let by = (most - t_l2) * off;
+            self.observer.push(by);
+            self.observer.translate(-by);
+        }
     }
 }

@@ -95,6 +95,17 @@ impl CovarianceDesign {
         self.forgetting = decayed(faded.over(Wide::of(sharing))).rounded();
     }
 
+    /// What three stages of the identifier's filter forget in a coarse step: the memory of what was missing.
+    pub const fn fading(&self) -> f32 {
+        let three = 3.0 * self.c;
+        if three < 1.0 { three } else { 1.0 }
+    }
+
+    /// The share of that which one step of the identifier has.
+    pub fn share(&self) -> f32 {
+        self.fading() * self.per_stride
+    }
+
     /// A x, A = [[p, cp, c²p], [0, p, cp], [0, 0, p]].
     #[inline(always)]
     fn propagate(&self, x: [f32; 3]) -> [f32; 3] {

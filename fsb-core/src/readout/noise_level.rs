@@ -7,11 +7,14 @@
 //!   what the model lacks (drag, wind, a swinging load), which the first does not.
 //!
 //! The larger one counts. Beside them the filtered acceleration itself is averaged, in the same measure: what part of it
-//! the model leaves unexplained tells whether the model holds at all. Each is a mean over the past, at first of all values, later over the last 256, or as many as the read-out
-//! remembers.
+//! the model leaves unexplained tells whether the model holds at all. Each is a mean over the past,
+//! at first of all values, later over the last 256, or as many as the read-out remembers.
 //!
 //! k remembers longer than that: a gust that has passed, or noise that was, is in its sums for as long as they last. So the residual is
 //! averaged a second time over all that is remembered, and where it was larger that counts.
+//!
+//! What stands in for measurements that are missing is off by more than they would have been, and by the same for a whole gap:
+//! the share of them of late says by how much more the noise counts.
 
 use crate::snapshot::stored;
 
@@ -27,6 +30,10 @@ pub struct NoiseLevel {
     residual: f32,
     signal: f32,
     values: u16,
+    /// The mean square of late, of the noise's kind, that stands for the errors of what stood in for missing measurements.
+    gaps: f32,
+    /// The share of the measurements of late that were missing, in 65536ths.
+    absent: u16,
 }
 
 impl NoiseLevel {
@@ -39,8 +46,16 @@ impl NoiseLevel {
     /// A residual of so many times the variance of the measurement noise may still be noise.
     pub(crate) const EXPLAINED: f32 = 25.0;
 
+    /// Where most measurements are missing, the level learned from those that came after gaps tells of the predictions as well.
+    const STRETCH: f32 = 3.0;
+    /// No more than so many times the variance of the measurement noise, as a number to reckon with.
+    const MOST: f32 = 1e8;
+    /// A mean square below this is none; well above the subnormal numbers.
+    const NOTHING: f32 = 1e-30;
+
     /// Nothing seen yet.
-    pub(crate) const UNKNOWN: Self = Self { fine: 0.0, slow: 0.0, whole: 0.0, residual: 0.0, signal: 0.0, values: 0 };
+    pub(crate) const UNKNOWN: Self =
+        Self { fine: 0.0, slow: 0.0, whole: 0.0, residual: 0.0, signal: 0.0, values: 0, gaps: 0.0, absent: 0 };
 
     /// The memory of a read-out that forgets by e^(-`fading`) from value to value.
     pub(crate) fn memory(fading: f32) -> u16 {
@@ -50,7 +65,7 @@ impl NoiseLevel {
 
     /// A level known beforehand; it counts as much as the least number of values that is trusted.
     pub(crate) const fn expected(variance: f32) -> Self {
-        Self { fine: variance, slow: variance, whole: variance, residual: 0.0, signal: 0.0, values: Self::ENOUGH }
+        Self { fine: variance, slow: variance, whole: variance, values: Self::ENOUGH, ..Self::UNKNOWN }
     }
 
     /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2. `memory`
@@ -66,6 +81,46 @@ impl NoiseLevel {
         let gain = 1.0 / f32::from(if self.values < Self::RECENT { self.values } else { Self::RECENT });
         self.residual += gain * (slow - self.residual);
         self.signal += gain * (signal - self.signal);
+    }
+
+    /// A measurement was missing; `gain` is the share that one measurement has in the memory.
+    pub(crate) fn miss(&mut self, gain: f32) {
+        let here = f32::from(u16::MAX - self.absent);
+        self.absent = self.absent.saturating_add((gain * here) as u16).saturating_add(1);
+    }
+
+    /// After a gap of `missing` measurements the first one is `off` from what was expected: what stood in for those that are missing
+    /// was off by about half of that, and all of it the same way. `gain` is the share that one measurement has in the memory.
+    pub(crate) fn come_back(&mut self, missing: f32, off: f32, gain: f32) {
+        self.gaps += gain * (0.25 * missing * (off * off));
+    }
+
+    /// A new window: what stood in for measurements before is not in it.
+    pub(crate) fn forget_gaps(&mut self) {
+        (self.gaps, self.absent) = (0.0, 0);
+    }
+
+    /// How many times the amplitude of the noise counts: at least one over the share that came, three times at most, and what the
+    /// predictions were found to be off by. What is remembered of the gaps fades by `fading`, of what was missing by `came` of that.
+    #[inline(never)]
+    pub(crate) fn stretch(&mut self, fading: f32, came: f32) -> f32 {
+        let absent = f32::from(self.absent);
+        let here = 1.0 - absent * (1.0 / 65_536.0);
+        let least = if here > 1.0 / Self::STRETCH { 1.0 / (here * here) } else { Self::STRETCH * Self::STRETCH };
+        let found = 1.0 + self.gaps / self.fine;
+        self.absent = (absent - fading * came * absent) as u16;
+        self.gaps -= fading * self.gaps;
+        if self.gaps < Self::NOTHING {
+            self.gaps = 0.0;
+        }
+        let times = if found > least { found } else { least };
+        libm::sqrtf(if times < Self::MOST { times } else { Self::MOST })
+    }
+
+    /// Whether there have been gaps of late.
+    #[inline(always)]
+    pub(crate) fn has_gaps(&self) -> bool {
+        self.absent > 0 || self.gaps > 0.0
     }
 
     /// σ², in the square of the position's unit, of the means that the identifier works on.
@@ -104,4 +159,4 @@ pub(crate) fn innovation_step_gain(p: f32) -> f32 {
     4.0 * (5.0 - p * p) / (q * q * q)
 }
 
-stored!(NoiseLevel { fine, slow, whole, residual, signal, values });
+stored!(NoiseLevel { fine, slow, whole, residual, signal, values, gaps, absent });

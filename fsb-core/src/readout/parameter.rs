@@ -4,7 +4,7 @@ use super::ratio::Ratio;
 use super::status::ParameterStatus;
 use crate::accumulator::Accumulator;
 use crate::checks::{Checks, Range, Rule, rule};
-use crate::snapshot::stored;
+use crate::snapshot::{MOST, stored};
 
 /// An identified parameter: k of (15), 1/m or 1/I.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -213,7 +213,7 @@ impl ParameterState {
             let per_information = 1.0 / self.information.value();
             let before = 1.0 - step.added * per_information;
             let weight = step.weight * per_information;
-            self.disturbance = before * before * self.disturbance + weight * weight * step.disturbance;
+            self.disturbance = known(before * before * self.disturbance + weight * weight * step.disturbance);
         }
         self.stepped = self.stepped.saturating_add(1);
         if self.stepped >= self.members {
@@ -271,21 +271,20 @@ impl ParameterState {
             let rounding = Self::ROUNDING * quotient;
             let variance = (variance / information) * (scale2 / information) + (pull * pull + rounding * rounding);
             // Rounding can take a sum of next to nothing below zero; no quotient yet makes it infinite.
-            self.of_noise = if (0.0..=f32::MAX).contains(&variance) { variance } else { f32::MAX };
+            self.of_noise = if variance >= 0.0 { known(variance) } else { f32::MAX };
             self.add_doubt(quotient);
         }
     }
 
     /// Sets the square of what the quotient may be off by, relative to itself, for other reasons than noise: it counts as variance.
     pub fn set_doubt(&mut self, doubt: f32) {
-        self.doubt = doubt;
+        self.doubt = known(doubt);
         self.add_doubt(self.newest().value);
     }
 
     fn add_doubt(&mut self, quotient: f32) {
         let variance = self.of_noise + (self.disturbance + self.doubt * (quotient * quotient));
-        *(if self.is_held() { &mut self.fresh.variance } else { &mut self.variance }) =
-            if variance <= f32::MAX { variance } else { f32::MAX };
+        *(if self.is_held() { &mut self.fresh.variance } else { &mut self.variance }) = known(variance);
     }
 
     /// Compares what the model leaves `unexplained` with the most it may; half of that ends a contradiction.
@@ -391,6 +390,11 @@ impl ParameterState {
             ParameterStatus::Valid
         };
     }
+}
+
+/// A variance beyond what a number of a state can be says that nothing is known, as does one that is no number.
+fn known(variance: f32) -> f32 {
+    if variance <= MOST { variance } else { f32::MAX }
 }
 
 /// Twice the standard deviation at which a parameter becomes valid is the one at which it no longer is.

@@ -12,8 +12,9 @@ pub enum Readout {
     /// k = Σ ẑ2 ẑ0 / Σ ẑ0². Keeps the sign of k; unbiased by noise in ẑ2; close to the Cramér-Rao bound.
     #[default]
     LeastSquares,
-    /// k = Σ|ẑ2| / Σ|ẑ0|, (44), the paper's. Loses the sign; reads too high where the excitation is weak against the noise. Neither this
-    /// nor what disturbs the motion is in its standard deviation, which is that of white measurement noise.
+    /// k = Σ|ẑ2| / Σ|ẑ0|, (44), the paper's. Loses the sign; reads too high where the excitation is weak against the noise. Neither this (up
+    /// to 9 standard deviations in random flights that swing across zero) nor what disturbs the motion is in its standard
+    /// deviation, which is that of white measurement noise.
     AbsoluteRatio,
 }
 

@@ -26,7 +26,7 @@ macro_rules! stored {
 pub(crate) use stored;
 
 /// The most that any number of a state can be: sums of squares of scaled signals at the limits, over days.
-const MOST: f32 = 1e37;
+pub(crate) const MOST: f32 = 1e37;
 
 impl Stored for f32 {
     fn pass(&mut self, archive: &mut dyn Archive) {

@@ -22,7 +22,7 @@ mod fields;
 mod frame;
 pub(crate) mod whole;
 
-pub(crate) use archive::{Archive, Stored, stored};
+pub(crate) use archive::{Archive, MOST, Stored, stored};
 pub(crate) use whole::{Fingerprint, Whole, snapshots};
 
 use core::fmt;

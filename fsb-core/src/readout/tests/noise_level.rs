@@ -65,3 +65,46 @@ fn the_misfit() {
     let (unexplained, signal) = level.misfit();
     assert!((unexplained - 26.0).abs() < 1e-3 && (signal - 1.0).abs() < 1e-3, "{unexplained}, {signal}");
 }
+
+/// The noise counts once where nothing is missing, twice where every other measurement is, three times at most; and what was missing is
+/// forgotten.
+#[test]
+fn what_was_missing() {
+    for (missing, times) in [(0.0_f32, 1.0), (0.5, 2.0), (0.6, 2.5), (0.9, 3.0)] {
+        let (mut level, mut due, mut stretch) = (NoiseLevel::expected(1.0), 0.0, 1.0);
+        for _ in 0..4000 {
+            due += missing;
+            if due >= 1.0 {
+                due -= 1.0;
+                level.miss(0.01);
+            } else if level.has_gaps() {
+                stretch = level.stretch(0.01, 1.0);
+            }
+        }
+        assert!((stretch - times).abs() < 0.03 * times, "{missing}: {stretch}");
+        for _ in 0..1000 {
+            stretch = level.stretch(0.01, 1.0);
+        }
+        assert!(!level.has_gaps() && stretch < 1.002, "{missing}: {stretch}");
+    }
+}
+
+/// What predictions were found to be off by counts beside the noise, as a mean square: gaps of two that end 6 off, every tenth measurement,
+/// are 2 x 36/4 a tenth of the time.
+#[test]
+fn what_predictions_were_off_by() {
+    let (mut level, mut stretch) = (NoiseLevel::expected(0.5), 0.0);
+    for n in 0..1000 {
+        if n % 10 == 0 {
+            level.come_back(2.0, 6.0, 0.01);
+        }
+        stretch = level.stretch(0.01, 1.0);
+    }
+    assert!((stretch * stretch / (1.0 + 1.8 / 0.5) - 1.0).abs() < 0.1, "{stretch}");
+    level.forget_gaps();
+    assert!(!level.has_gaps());
+    // Whatever comes, it is a number.
+    let mut level = NoiseLevel::UNKNOWN;
+    level.come_back(65_535.0, 1e6, 0.01);
+    assert!((1.0..=1e4).contains(&level.stretch(0.01, 1.0)));
+}
