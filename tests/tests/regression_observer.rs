@@ -4,9 +4,11 @@ use fsb_core::Tuning;
 use fsb_core::identifier::IdentifierDesign;
 use fsb_core::moments::InputMoments;
 use fsb_core::observer::{Gains, Model, Observer, ObserverDesign};
-use fsb_core::regression::{DragModel, DragObserver, VelocityCascade, VelocityDesign, VelocityWeights};
+use fsb_core::regression::{
+    DragConfig, DragEstimator, DragModel, DragObserver, VelocityCascade, VelocityDesign, VelocityWeights,
+};
 use fsb_core::window::Window;
-use fsb_tests::drag_flight::DragAxis;
+use fsb_tests::drag_flight::{DRIFT, DragAxis, DragFlight, FLIGHT, Flyer};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -131,5 +133,37 @@ fn standing_still_leaves_nothing() {
             let zv = cascade.zv() / design.scale();
             assert!(zv.abs() < 1e-20, "{y} m, {period} s: {zv} m/s");
         }
+    }
+}
+
+/// Nine measurements of ten missing, and an observer that follows each: what came together over a gap is no velocity of one period.
+#[test]
+fn a_quick_observer_is_not_thrown_off_by_gaps() {
+    let flight = DragFlight { period: 0.02, noise: 1e-3, ..FLIGHT };
+    for of_period in [0.5, 0.9] {
+        let observer = Tuning::from_lambda(of_period / flight.period);
+        let config = DragConfig { drift: DRIFT, observer, nominal: Some(flight.k), ..DragConfig::new(flight.period) };
+        let (mut worst, mut squares, mut count) = (0.0_f64, 0.0, 0.0);
+        for seed in 0..20 {
+            let mut estimator = DragEstimator::new(&config).expect("a valid configuration");
+            let mut rng = Pcg64::seed_from_u64(seed);
+            let mut flyer = Flyer::new(&flight);
+            for n in 0..1500 {
+                let instant = flyer.step(&flight, &mut rng);
+                let positions = instant.measured.map(|y| (n == 0 || rng.random_bool(0.1)).then_some(y));
+                estimator.measure(&positions).expect("in step");
+                for (state, truth) in estimator.states().into_iter().zip(instant.velocity) {
+                    if let Some(state) = state.filter(|_| instant.t > 5.0) {
+                        let off = f64::from(state.velocity) - truth;
+                        worst = worst.max(off.abs());
+                        (squares, count) = (squares + off * off, count + 1.0);
+                    }
+                }
+                estimator.apply(&instant.force);
+            }
+        }
+        let rms = (squares / count).sqrt();
+        println!("λT {of_period}, seeds 0 to 19: velocity off by {rms} m/s rms, {worst} at most");
+        assert!(count > 7e4 && rms < 0.5 && worst < 10.0);
     }
 }

@@ -103,20 +103,13 @@ impl Axis {
         }
     }
 
-    /// Before the step with `y`, the first measurement after a gap. What it is off by has come together over the whole gap; a velocity
-    /// corrected by more of it than a share of one in so many periods overshoots, and would do so the more the longer the gaps are.
+    /// Before the step with `y`, the first measurement after a gap.
     fn come_back(&mut self, y: f32, m1: f32, t_l2: f32, common: &Common) {
         let gap = f32::from(self.gap);
         let off = y - self.observer.predict(self.moments, &self.model, m1);
         // A mean over a block has so much less of it.
         let per_length = common.block.per_length;
         self.noise.come_back(gap, off, common.covariance.share() * (per_length * per_length));
-        let most = 1.0 / (gap + 1.0);
-        if t_l2 > most {
-            // The velocity alone moves: what is expected stays.
-            let by = (most - t_l2) * off;
-            self.observer.push(by);
-            self.observer.translate(-by);
-        }
+        self.observer.come_back(gap, off, t_l2);
     }
 }

@@ -97,6 +97,19 @@ impl Observer {
         self.w.add_folded(by);
     }
 
+    /// Before the step with the first measurement after a `gap` of so many, which is `off` from what was expected. That has come
+    /// together over the whole gap; a velocity corrected by more of it than a share of one in so many periods overshoots, and would do so
+    /// the more the longer the gaps are.
+    pub(crate) fn come_back(&mut self, gap: f32, off: f32, t_l2: f32) {
+        let most = 1.0 / (gap + 1.0);
+        if t_l2 > most {
+            // The velocity alone moves: what is expected stays.
+            let by = (most - t_l2) * off;
+            self.push(by);
+            self.translate(-by);
+        }
+    }
+
     /// Moves collected steps into totals, and ends an innovation and a velocity that have died away.
     #[inline(always)]
     pub fn fold(&mut self) {

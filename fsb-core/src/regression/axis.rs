@@ -103,6 +103,10 @@ impl Axis {
     /// What is measured, or what stands in for it; zero for an axis that is lost. Returns whether it was measured.
     pub fn repair(&mut self, y: &mut f32, m1: f32, clock: &Clock, common: &Common) -> bool {
         if y.abs() <= common.position_limit {
+            if self.measured && self.gap > 0 {
+                let off = *y - self.observer.predict(self.moments, &self.model, m1);
+                self.observer.come_back(self.gap as f32, off, clock.gains.t_l2());
+            }
             self.gap = 0;
             if !self.measured {
                 self.measured = true;

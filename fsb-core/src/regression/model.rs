@@ -116,6 +116,11 @@ impl DragObserver {
         self.inner.predict(model.motion(self.inner.t_velocity(), moments), &MOTION, m1)
     }
 
+    /// Before the step with the first measurement after a gap; see [`Observer::come_back`].
+    pub(crate) fn come_back(&mut self, gap: f32, off: f32, t_l2: f32) {
+        self.inner.come_back(gap, off, t_l2);
+    }
+
     /// Moves collected steps into totals.
     #[inline(always)]
     pub fn fold(&mut self) {
