@@ -99,6 +99,20 @@ fn a_dropped_load_under_noise() {
     }
 }
 
+/// Nothing has changed: what first guesses 40 to 50 % off left in the innovations is no change of what is known since.
+#[test]
+fn a_bad_guess_is_no_change() {
+    println!("seeds 1..=20");
+    for (guess, seed) in [1.5, 0.6].into_iter().flat_map(|guess| (1..=20).map(move |n| (guess, n))) {
+        let [x, y, z] = RigidBody::default().inertia;
+        let config = VehicleConfig { inertia: [x * guess, y / guess, z * guess].map(Expected::about), ..config() };
+        let mut vehicle = VehicleEstimator::new(&config).unwrap();
+        fly(&mut noisy(Course::AGGRESSIVE, seed), &mut vehicle, 4.0, |flight, _, events| {
+            assert!(!events.inertia_changed && !events.mass_changed, "guess {guess}, seed {seed}: at {} s", flight.t());
+        });
+    }
+}
+
 /// The moments of inertia likewise, where there is something to see them by.
 #[test]
 fn a_dropped_inertia() {

@@ -48,6 +48,7 @@ const TESTS: &[&str] = &[
     "trust",
     "vehicle_change",
     "vehicle_exactness",
+    "vehicle_fading",
     "vehicle_inertia",
     "vehicle_readings",
     "vehicle_robustness",

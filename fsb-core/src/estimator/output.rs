@@ -118,6 +118,8 @@ pub(crate) struct IdentifierView<const N: usize> {
     pub c: f32,
     /// 1/M
     pub per_length: f32,
+    /// What the sums forget in a step: 1 - e^(-T/τ).
+    pub forgetting: f32,
     /// ẑ0, scaled.
     pub z0: [f32; N],
     /// Whether the step has been added to the sums.

@@ -106,6 +106,7 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             weight: clock.at.g,
             c: common.identifier.c,
             per_length: common.block.per_length,
+            forgetting: common.forgetting,
             z0: axes.each_ref().map(|axis| axis.cascade.z0()),
             // The window is zero in the first two steps; a block of predictions says nothing.
             counts: axes

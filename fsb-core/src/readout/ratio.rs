@@ -69,12 +69,18 @@ impl Ratio {
     /// A ẑ0² below this holds no information (the input has been zero): the sums are left alone, and do not fade.
     const NOTHING: f32 = 1e-30;
 
+    /// Whether a sample with this ẑ0 joins the sums, and they fade.
+    #[inline(always)]
+    pub(crate) fn is_informative(z0: f32) -> bool {
+        z0 * z0 >= Self::NOTHING
+    }
+
     /// Adds a sample of ẑ2 (known drift removed) and ẑ0, and returns whether it held any information. `forgetting` is
     /// 1 - e^(-T/τ). Cost: 9 operations; [`fold`](Self::fold) is due now and then.
     #[inline(always)]
     pub fn add(&mut self, readout: Readout, z2: f32, z0: f32, forgetting: f32) -> bool {
         let (up, down) = weight(readout, z2, z0);
-        let informative = z0 * z0 >= Self::NOTHING;
+        let informative = Self::is_informative(z0);
         if informative {
             self.numerator.add(up * z2 - forgetting * self.numerator.value());
             self.denominator.add(down * z0 - forgetting * self.denominator.value());

@@ -53,6 +53,8 @@ pub(super) struct Detector {
     contradicted: u32,
     /// The last instant was measured.
     measured: bool,
+    /// Parameters that were known then.
+    known: [bool; 3],
 }
 
 impl Detector {
@@ -94,6 +96,7 @@ impl Detector {
             instants: 0,
             contradicted: 0,
             measured: false,
+            known: [false; 3],
         })
     }
 
@@ -133,6 +136,7 @@ impl Detector {
             return false;
         }
         self.instants = self.instants.saturating_add(1);
+        self.forget_guesses(known);
         let terms = self.terms(view);
         let share = 1.0 / self.instants as f32;
         for (usual, term) in self.usual.iter_mut().zip(&terms) {
@@ -148,6 +152,18 @@ impl Detector {
         let streak = now.add(&terms, known, &limits).max(late.add(&terms, known, &limits));
         self.contradicted = if contradicted && limits.open { self.contradicted.saturating_add(1) } else { 0 };
         streak >= self.enough || self.contradicted >= self.enough
+    }
+
+    /// What a parameter that has just become known left in the innovations while another value was predicted with, its own and by
+    /// the gyroscopic moment the others', tells nothing of a change of it.
+    fn forget_guesses(&mut self, known: &[Option<f32>; 3]) {
+        let known = known.map(|k| k.is_some());
+        if known.iter().zip(&self.known).any(|(now, before)| *now && !before) {
+            for statistic in &mut self.statistics {
+                statistic.reset();
+            }
+        }
+        self.known = known;
     }
 
     /// Whether a gap, of some 3/λ, has let φ grow so far that its mean would be one of the gap from then on, and what comes
@@ -249,6 +265,7 @@ impl Stored for Detector {
         self.instants.pass(archive);
         self.contradicted.pass(archive);
         self.measured.pass(archive);
+        self.known.pass(archive);
     }
 }
 

@@ -15,7 +15,7 @@ use crate::error::ConfigError;
 use crate::estimator::Learning;
 use crate::guard::{Guarded, Verdict};
 use crate::moments::{InputMoments, Substep};
-use crate::readout::{Memory, Readout};
+use crate::readout::Readout;
 
 /// Mass, moments of inertia and state of a vehicle whose position and attitude are measured.
 ///
@@ -59,7 +59,7 @@ pub struct VehicleEstimator<const D: usize> {
     /// Attitudes in succession that were too far away to be followed, and how many make a start anew.
     pub(super) too_far: u32,
     pub(super) enough: u32,
-    /// Where the sums are those of least squares and do not fade.
+    /// Where the sums are those of least squares.
     pub(super) retroactive: Option<Retroactive>,
     pub(super) translation_change: Option<Detector>,
     pub(super) rotation_change: Option<Detector>,
@@ -98,11 +98,9 @@ impl<const D: usize> VehicleEstimator<D> {
             last: Wrench::default(),
             too_far: 0,
             enough: config.rotation.guard.jump_after,
-            retroactive: match (config.rotation.memory, config.rotation.readout) {
-                (Memory::Infinite, Readout::LeastSquares) => {
-                    Some(Retroactive::new(Substep::new(config.rotation.substeps)?))
-                }
-                _ => None,
+            retroactive: match config.rotation.readout {
+                Readout::LeastSquares => Some(Retroactive::new(Substep::new(config.rotation.substeps)?)),
+                Readout::AbsoluteRatio => None,
             },
             translation_change: detector(config, &config.translation, true)?,
             rotation_change: detector(config, &config.rotation, false)?,

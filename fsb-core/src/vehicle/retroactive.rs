@@ -10,14 +10,14 @@
 //! itself moves to the newest γ: a fixed point, one step of it per step of the identifier. Exact for blocks of one; for longer ones w lags by a part of a block, which
 //! matters to the difference γ - γ₀ alone.
 //!
-//! For least squares with infinite memory. Sums that fade forget the first guess by themselves; those of the absolute ratio are
-//! not linear in ẑ0, and keep what a rough first guess did to them.
+//! For least squares: where its sums fade, A, B and what they have put into the denominator fade with them. Those of the
+//! absolute ratio are not linear in ẑ0, and keep what a rough first guess did to them.
 
 use super::gyroscopic::differences_known;
 use crate::accumulator::Accumulator;
 use crate::estimator::{IdentifierView, InputShift};
 use crate::moments::{InputMoments, Substep};
-use crate::readout::Parameter;
+use crate::readout::{Parameter, Ratio};
 use crate::snapshot::{Archive, Stored, stored};
 
 /// One cascade for an input: x4, x5, x6 of (38).
@@ -67,6 +67,18 @@ struct Axis {
     applied: f32,
     /// The square of what it may be off by, over that of the denominator.
     doubt: f32,
+}
+
+impl Axis {
+    /// As the parameter's sums do before they take ẑ0.
+    #[inline(never)]
+    fn fade(&mut self, z0: f32, forgetting: f32) {
+        if Ratio::is_informative(z0) {
+            self.a.add_folded(-forgetting * self.a.value());
+            self.b.add_folded(-forgetting * self.b.value());
+            self.applied -= forgetting * self.applied;
+        }
+    }
 }
 
 /// Three axes.
@@ -149,6 +161,9 @@ impl Retroactive {
         {
             let (own, used) = (axis.own.step(view), axis.used.step(view));
             if counts {
+                if view.forgetting > 0.0 {
+                    axis.fade(*z0, view.forgetting);
+                }
                 axis.a.add_folded(z0 * own);
                 axis.b.add_folded(z0 * used);
             }
