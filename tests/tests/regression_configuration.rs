@@ -25,7 +25,7 @@ fn every_number() {
     let rate = |name| and(name, &[(1001.0, TooFastForPeriod(name)), (0.9e-3, TooSlowForPeriod(name))]);
     let limit = |name| and(name, &[(1.1e6, OutOfRange(name))]);
     let settle = |name| vec![(f64::NAN, NonFinite(name)), (-1e-9, Negative(name)), (1.1e6, OutOfRange(name))];
-    let cases: [Case<'_>; 14] = [
+    let cases: [Case<'_>; 16] = [
         (|c, x| c.identifier.lambda = x, rate("identifier.lambda"), &[1000.0, 1e-3]),
         (|c, x| c.identifier.q = x, rate("identifier.q"), &[1000.0, 1e-3]),
         (|c, x| c.observer.lambda = x, rate("observer.lambda"), &[1000.0, 1e-3]),

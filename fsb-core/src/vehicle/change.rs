@@ -55,6 +55,8 @@ pub(super) struct Detector {
     measured: bool,
     /// Parameters that were known then.
     known: [bool; 3],
+    /// At any time of this identification.
+    was_known: [bool; 3],
 }
 
 impl Detector {
@@ -97,6 +99,7 @@ impl Detector {
             contradicted: 0,
             measured: false,
             known: [false; 3],
+            was_known: [false; 3],
         })
     }
 
@@ -106,7 +109,7 @@ impl Detector {
         for statistic in &mut self.statistics {
             statistic.reset();
         }
-        (self.instants, self.contradicted) = (0, 0);
+        (self.instants, self.contradicted, self.was_known) = (0, 0, [false; 3]);
     }
 
     /// The observer has begun anew.
@@ -116,10 +119,10 @@ impl Detector {
         self.measured = false;
     }
 
-    /// After a measurement instant; `known` is k of each axis, where it is identified, and `contradicted` tells that the motion
-    /// contradicts one. Whether a parameter has changed: with noise it may be contradicted before the innovations have shown
+    /// After a measurement instant; `known` is k of each axis, where it is identified, and `contradicted` tells whether the motion
+    /// contradicts it, which counts for one that was known. Whether a parameter has changed: with noise it may be contradicted before the innovations have shown
     /// what k is now, and would be for as long as there is more in its sums of before than of since. Cost: about 130 operations.
-    pub fn observe(&mut self, view: &InnovationView<3>, known: &[Option<f32>; 3], contradicted: bool) -> bool {
+    pub fn observe(&mut self, view: &InnovationView<3>, known: &[Option<f32>; 3], contradicted: &[bool; 3]) -> bool {
         for (response, input) in self.responses.iter_mut().zip(&view.moments) {
             response.phi = response.e + response.w + input.j2;
             let correction = if view.measured { view.t_l2 * response.phi } else { 0.0 };
@@ -150,6 +153,8 @@ impl Detector {
         };
         let [now, late] = &mut self.statistics;
         let streak = now.add(&terms, known, &limits).max(late.add(&terms, known, &limits));
+        let contradicted =
+            contradicted.iter().zip(&self.was_known).any(|(contradicted, known)| *contradicted && *known);
         self.contradicted = if contradicted && limits.open { self.contradicted.saturating_add(1) } else { 0 };
         streak >= self.enough || self.contradicted >= self.enough
     }
@@ -162,6 +167,9 @@ impl Detector {
             for statistic in &mut self.statistics {
                 statistic.reset();
             }
+        }
+        for (was, now) in self.was_known.iter_mut().zip(known) {
+            *was |= now;
         }
         self.known = known;
     }
@@ -266,6 +274,7 @@ impl Stored for Detector {
         self.contradicted.pass(archive);
         self.measured.pass(archive);
         self.known.pass(archive);
+        self.was_known.pass(archive);
     }
 }
 

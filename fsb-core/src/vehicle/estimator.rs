@@ -15,7 +15,7 @@ use crate::error::ConfigError;
 use crate::estimator::Learning;
 use crate::guard::{Guarded, Verdict};
 use crate::moments::{InputMoments, Substep};
-use crate::readout::Readout;
+use crate::readout::{ParameterStatus, Readout};
 
 /// Mass, moments of inertia and state of a vehicle whose position and attitude are measured.
 ///
@@ -48,6 +48,8 @@ pub struct VehicleEstimator<const D: usize> {
     pub(super) forces: Delay<[InputMoments; 3], D>,
     /// dt
     pub(super) period: f32,
+    /// T of the attitudes.
+    pub(super) rotation_period: f32,
     /// The attitude was measured in the last update.
     pub(super) attitude_measured: bool,
     pub(super) position_limit: f32,
@@ -90,6 +92,7 @@ impl<const D: usize> VehicleEstimator<D> {
             wrenches: Delay::new(late),
             forces: Delay::new(latest - late),
             period: config.period as f32,
+            rotation_period: (config.period * f64::from(config.rotation.substeps)) as f32,
             attitude_measured: false,
             position_limit: config.translation.measurement_limit as f32,
             force_limit: config.translation.input_limit as f32,
@@ -216,7 +219,14 @@ impl<const D: usize> VehicleEstimator<D> {
     #[inline(never)]
     fn look_back(&mut self) {
         let Some(retroactive) = &mut self.retroactive else { return };
-        retroactive.sample();
+        let view = self.rotation.innovation_view();
+        if view.measured
+            && self.rotation.parameter_status() != [ParameterStatus::Valid; 3]
+            && let Some(rates) = rates(&self.rotation.states())
+        {
+            retroactive.correct(&view, &rates, self.rotation_period);
+        }
+        retroactive.sample(&view);
         if !retroactive.is_behind(self.rotation.identifier_blocks()) || self.rotation.learning() != Learning::On {
             return;
         }

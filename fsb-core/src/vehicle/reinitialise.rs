@@ -51,9 +51,9 @@ impl<const D: usize> VehicleEstimator<D> {
     /// Looks for a change after a measurement instant of the group, and acts on it.
     pub(super) fn mass_has_changed(&mut self) -> bool {
         let Some(detector) = &mut self.translation_change else { return false };
-        let [k] = identified(&self.translation);
+        let ([k], [contradicted]) = (identified(&self.translation), contradicted(&self.translation));
         let changed =
-            detector.observe(&self.translation.innovation_view(), &[k, None, None], is_contradicted(&self.translation));
+            detector.observe(&self.translation.innovation_view(), &[k, None, None], &[contradicted, false, false]);
         if changed {
             self.reinitialise(Group::Translation);
         }
@@ -66,7 +66,7 @@ impl<const D: usize> VehicleEstimator<D> {
         let changed = detector.observe(
             &self.rotation.innovation_view(),
             &identified(&self.rotation),
-            is_contradicted(&self.rotation),
+            &contradicted(&self.rotation),
         );
         if changed {
             self.reinitialise(Group::Rotation);
@@ -75,9 +75,10 @@ impl<const D: usize> VehicleEstimator<D> {
     }
 }
 
-/// Whether the motion contradicts a parameter that is being learned.
-fn is_contradicted<const P: usize>(estimator: &Estimator<3, P>) -> bool {
-    estimator.learning() == Learning::On && estimator.parameter_status().contains(&ParameterStatus::Contradicted)
+/// Whether the motion contradicts the parameters, where they are being learned.
+fn contradicted<const P: usize>(estimator: &Estimator<3, P>) -> [bool; P] {
+    let learning = estimator.learning() == Learning::On;
+    estimator.parameter_status().map(|status| learning && status == ParameterStatus::Contradicted)
 }
 
 /// k of the parameters that are valid now, not held. None while nothing is learned: they are to stay as they are, and in contact

@@ -15,7 +15,7 @@
 
 use super::gyroscopic::differences_known;
 use crate::accumulator::Accumulator;
-use crate::estimator::{IdentifierView, InputShift};
+use crate::estimator::{IdentifierView, InnovationView, InputShift};
 use crate::moments::{InputMoments, Substep};
 use crate::readout::{Parameter, Ratio};
 use crate::snapshot::{Archive, Stored, stored};
@@ -87,6 +87,10 @@ pub(super) struct Retroactive {
     axes: [Axis; 3],
     blocks: u32,
     substep: Substep,
+    /// At the last measurement instant.
+    innovations: [f32; 3],
+    /// What the rates have lacked of late (rad/s): a mean over some eight intervals.
+    lacked: [f32; 3],
 }
 
 impl Retroactive {
@@ -97,7 +101,7 @@ impl Retroactive {
     const MOST_DOUBT: f32 = 1e6;
 
     pub fn new(substep: Substep) -> Self {
-        Self { axes: [Axis::default(); 3], blocks: 0, substep }
+        Self { axes: [Axis::default(); 3], blocks: 0, substep, innovations: [0.0; 3], lacked: [0.0; 3] }
     }
 
     /// With the identification.
@@ -124,8 +128,28 @@ impl Retroactive {
         }
     }
 
+    /// What `rates` lacked in the interval that has ended, while the prediction may be a wrong one: the innovations tell it,
+    /// r - m1 r of the one before being T times that (but for its growth in the interval).
+    pub fn correct(&mut self, view: &InnovationView<3>, [p, q, r]: &[f32; 3], period: f32) {
+        let mut lacked = [0.0; 3];
+        let innovations = view.innovations.iter().zip(&self.innovations).zip(&mut self.lacked);
+        for (lacked, ((now, before), of_late)) in lacked.iter_mut().zip(innovations) {
+            *lacked = (now - view.m1 * before) / period;
+            *of_late += 0.125 * (*lacked - *of_late);
+        }
+        let [dp, dq, dr] = lacked;
+        // The product of two noises would be one more of them; that of their means hardly is any.
+        let [ep, eq, er] = self.lacked;
+        let products = [q * dr + r * dq + eq * er, r * dp + p * dr + er * ep, p * dq + q * dp + ep * eq];
+        for (axis, w) in self.axes.iter_mut().zip(products) {
+            axis.own.moments.j1 += w;
+            axis.own.moments.j2 += 0.5 * w;
+        }
+    }
+
     /// After a measurement instant.
-    pub fn sample(&mut self) {
+    pub fn sample(&mut self, view: &InnovationView<3>) {
+        self.innovations = view.innovations;
         for axis in &mut self.axes {
             axis.own.sample();
             axis.used.sample();
@@ -200,6 +224,8 @@ impl Stored for Retroactive {
     fn pass(&mut self, archive: &mut dyn Archive) {
         self.axes.pass(archive);
         self.blocks.pass(archive);
+        self.innovations.pass(archive);
+        self.lacked.pass(archive);
     }
 }
 
@@ -215,9 +241,10 @@ impl Retroactive {
 
     /// Of a state that was stored: nothing in it can overflow.
     pub fn is_sound(&self) -> bool {
-        self.axes.iter().all(|axis| {
-            axis.own.numbers().chain(axis.used.numbers()).all(|x| x.abs() <= Self::MOST)
-                && [axis.a.value(), axis.b.value(), axis.applied].iter().all(|x| x.abs() <= Self::MOST * Self::MOST)
-        })
+        self.innovations.iter().chain(&self.lacked).all(|x| x.abs() <= Self::MOST)
+            && self.axes.iter().all(|axis| {
+                axis.own.numbers().chain(axis.used.numbers()).all(|x| x.abs() <= Self::MOST)
+                    && [axis.a.value(), axis.b.value(), axis.applied].iter().all(|x| x.abs() <= Self::MOST * Self::MOST)
+            })
     }
 }

@@ -87,7 +87,7 @@ fn alarm_from(at: u32, factor: f64, axes: [bool; 3], pooled: bool, gaps: bool, v
         let k = axes.map(|changes| f64::from(K) * if changes && n >= at { factor } else { 1.0 });
         let measured = !(gaps && n % 5 == 3);
         let view = scene.step(scene.force(), k, measured, variance);
-        if detector.observe(&view, &[Some(K); 3], false) {
+        if detector.observe(&view, &[Some(K); 3], &[false; 3]) {
             assert!(n >= at, "before anything has changed: {n}");
             return Some(n - at);
         }
@@ -137,13 +137,30 @@ fn nothing_is_told_of_what_is_not_known() {
     let (mut scene, mut detector) = (Scene::new(), detector(true));
     for _ in 0..600 {
         let view = scene.step(scene.force(), [f64::from(2.0 * K); 3], true, 1e-13);
-        assert!(!detector.observe(&view, &[None; 3], false));
+        assert!(!detector.observe(&view, &[None; 3], &[false; 3]));
     }
     let (mut scene, mut detector) = (Scene::new(), self::detector(true));
     for _ in 0..600 {
         let mut view = scene.step(scene.force(), [f64::from(2.0 * K); 3], true, 1e-13);
         view.noise_variances = [None; 3];
-        assert!(!detector.observe(&view, &[Some(K); 3], false));
+        assert!(!detector.observe(&view, &[Some(K); 3], &[false; 3]));
+    }
+}
+
+/// A contradiction counts for a parameter that was known in this identification, and for no other.
+#[test]
+fn what_was_not_known_cannot_be_contradicted() {
+    let view = |scene: &mut Scene| scene.step(scene.force(), [f64::from(K); 3], true, 1e-13);
+    for (axis, changed) in [(0, true), (1, false)] {
+        let (mut scene, mut detector) = (Scene::new(), detector(false));
+        let contradicted = [0, 1, 2].map(|i| i == axis);
+        for _ in 0..200 {
+            assert!(!detector.observe(&view(&mut scene), &[Some(K), None, None], &[false; 3]));
+        }
+        let told = (0..200).any(|_| detector.observe(&view(&mut scene), &[None; 3], &contradicted));
+        assert_eq!(told, changed, "{axis}");
+        detector.reset();
+        assert!(!(0..400).any(|_| detector.observe(&view(&mut scene), &[None; 3], &contradicted)), "begun anew");
     }
 }
 
@@ -156,7 +173,7 @@ fn nothing_is_decided_for_a_second() {
         let told = |scene: &mut Scene, detector: &mut Detector| {
             (0..400).find(|_| {
                 let view = scene.step(scene.force(), [f64::from(1.5 * K); 3], true, 1e-13);
-                detector.observe(&view, &[Some(K); 3], false)
+                detector.observe(&view, &[Some(K); 3], &[false; 3])
             })
         };
         let first = told(&mut scene, &mut detector);
@@ -177,6 +194,6 @@ fn a_small_input_tells_nothing() {
         // Once the response to the large input is gone, something pulls like a k three times as large.
         let k = if n >= 700 { 3.0 } else { 1.0 };
         let view = scene.step(force, [k * f64::from(K); 3], true, 1e-13);
-        assert!(!detector.observe(&view, &[Some(K); 3], false), "{n}");
+        assert!(!detector.observe(&view, &[Some(K); 3], &[false; 3]), "{n}");
     }
 }
