@@ -77,12 +77,13 @@ pub struct GroupConfig {
     pub input_limit: f64,
 }
 
-/// When a change of a parameter k (1/m, 1/I) is taken as such, and its group identified anew; so is one with a parameter that is
-/// contradicted.
+/// When a change of a parameter k (1/m, 1/I) is taken as such, and its group identified anew; so is one with a parameter that was
+/// known and is contradicted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ChangeRule {
-    /// The smallest change of k, relative to k, to react to. 1e-3..=1e3.
+    /// The smallest change of k, relative to k, to react to. 1e-3..=1e3. A smaller one goes into k̂ as more is learned, for as long as the
+    /// memory lasts by more than its standard deviation.
     pub relative: f64,
     /// By how many of its standard deviations the change must show. 1..=1e3.
     pub sigmas: f64,
