@@ -166,6 +166,13 @@ impl Axis {
         // What k̂ and the input may be off by is no disturbance.
         let tolerated = quotient * quotient * self.tolerance + parameter.undisturbed_variance(quotient) * z0 * z0;
         let beyond = residual * residual - NoiseLevel::EXPLAINED * (of_noise * (stretch * stretch) + tolerated);
+        let beyond = match parameter.suspected() {
+            Some(held) => {
+                let off = z2 - held * z0;
+                if off * off > beyond { off * off } else { beyond }
+            }
+            None => beyond,
+        };
         let disturbance = if beyond > 0.0 && self.noise.is_known() { covariance.correlation * beyond } else { 0.0 };
         let (noise, disturbance) = match common.readout {
             Readout::LeastSquares => (of_noise, disturbance),

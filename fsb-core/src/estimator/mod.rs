@@ -163,6 +163,13 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         self.parts().begin_window(Known::Held);
     }
 
+    /// What has told that the values held are no longer right may have been a disturbance that goes on.
+    pub(crate) fn suspect_disturbance(&mut self) {
+        for parameter in &mut self.parameters {
+            parameter.suspect();
+        }
+    }
+
     /// The same without its shape.
     #[inline(always)]
     fn parts(&mut self) -> Parts<'_> {

@@ -278,6 +278,11 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         self.estimator.reinitialise_identifier();
     }
 
+    /// As [`Estimator::suspect_disturbance`].
+    pub(crate) fn suspect_disturbance(&mut self) {
+        self.estimator.suspect_disturbance();
+    }
+
     /// As [`Estimator::reset_identifier`].
     pub fn reset_identifier(&mut self) {
         self.estimator.reset_identifier();

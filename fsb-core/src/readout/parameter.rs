@@ -120,6 +120,8 @@ pub(crate) struct ParameterState {
     disturbance: f32,
     /// The newest quotient and its variance while the value from before is held.
     fresh: Parameter,
+    /// Coarse steps to come in which what differs from the value held may be a disturbance.
+    suspect: u8,
     pub nominal: Option<f32>,
     rule: CheckedRule,
 }
@@ -127,6 +129,9 @@ pub(crate) struct ParameterState {
 impl ParameterState {
     /// What rounding leaves of k, however long it is looked at.
     const ROUNDING: f32 = 1e-7;
+
+    /// Some 2/λ.
+    const SUSPECT: u8 = 25;
 
     /// No parameter yet.
     pub const BLANK: Self = {
@@ -154,6 +159,7 @@ impl ParameterState {
             echo: Accumulator::ZERO,
             disturbance: 0.0,
             fresh: Parameter { value: 0.0, variance: f32::MAX },
+            suspect: 0,
             nominal,
             rule,
         }
@@ -172,6 +178,20 @@ impl ParameterState {
             self.status = ParameterStatus::Held;
             (self.value, self.variance) = (value, variance);
         }
+    }
+
+    /// What has told that the value held is no longer right may have been a disturbance, which goes on.
+    pub fn suspect(&mut self) {
+        self.suspect = Self::SUSPECT;
+    }
+
+    /// The value held, while what differs from it may be a disturbance. To be asked once a coarse step.
+    pub fn suspected(&mut self) -> Option<f32> {
+        if self.suspect == 0 {
+            return None;
+        }
+        self.suspect -= 1;
+        self.held_value()
     }
 
     /// Whether it is not known yet, and nothing speaks against what has been learned so far.
@@ -417,6 +437,7 @@ stored!(ParameterState {
     echo,
     disturbance,
     fresh,
+    suspect,
 });
 stored!(Parameter { value, variance });
 

@@ -70,6 +70,7 @@ impl<const D: usize> VehicleEstimator<D> {
         );
         if changed {
             self.reinitialise(Group::Rotation);
+            self.rotation.suspect_disturbance();
         }
         changed
     }
