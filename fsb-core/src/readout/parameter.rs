@@ -225,6 +225,10 @@ impl ParameterState {
     }
 
     /// A coarse step of one of its axes.
+    ///
+    /// What acts and was not told, a gust or a push, is no position noise, which two differences have made small where the input
+    /// is steady. It is an acceleration, which comes out of the three stages spread over many steps: what the squares of
+    /// the residuals add up to, each weighed as it went into the quotient, counts so many times.
     pub fn step_coarsely(&mut self, step: &CoarseStep, forgetting: f32) {
         self.echo.add_folded(step.noise - forgetting * self.echo.value());
         self.information.add_folded(step.added - forgetting * self.information.value());
@@ -272,10 +276,6 @@ impl ParameterState {
 
     /// The variance of the quotient from that of its numerator, where that is known. `scale2` is the square of the
     /// identifier's scale.
-    ///
-    /// What acts and was not told, a gust or a push, is no position noise, which two differences have made small where the input is steady: an
-    /// acceleration without memory comes out of the three stages spread over `correlation` steps, so that what the squares of the residuals
-    /// add up to, each weighed as it went into the quotient, counts so many times.
     ///
     /// A controller that feeds the estimates back answers to measurement noise with an input that goes with it. Where hardly
     /// anything else moves, that pulls the quotient towards zero, by a share of about ½ Σ var ẑ2 / Σ (k ẑ0)² (observed: 38 %

@@ -27,7 +27,7 @@ fn tell(state: &mut ParameterState, k: f32, relative_sd: f32) {
     let z0 = libm::sqrtf(1e4 * state.ratio.denominator().max(1e-4));
     state.ratio.add(Readout::LeastSquares, z0 * k, z0, 0.0);
     state.ratio.fold();
-    state.step_coarsely(&CoarseStep { added: 1e4, noise: 0.0, ..CoarseStep::default() }, 1.0);
+    state.step_coarsely(&CoarseStep { added: 1e4, ..CoarseStep::default() }, 1.0);
     let sd = relative_sd * k * 1e4;
     state.read_variance(Some(sd * sd), 1.0);
     state.read(true);
@@ -70,7 +70,7 @@ fn each_status_has_its_reason() {
     // A standard deviation of exactly what is asked for is enough.
     let mut exact = rule(0.5);
     exact.ratio.add(Readout::LeastSquares, 1.0, 1.0, 0.0);
-    exact.step_coarsely(&CoarseStep { added: 1.0, noise: 0.0, ..CoarseStep::default() }, 0.0);
+    exact.step_coarsely(&CoarseStep { added: 1.0, ..CoarseStep::default() }, 0.0);
     exact.read_variance(Some(0.25), 1.0);
     exact.read(true);
     assert_eq!(exact.status, ParameterStatus::Valid);
@@ -207,7 +207,7 @@ fn every_member_counts() {
     let rule = ParameterRule::default().checked(&mut Checks::new());
     let mut state = ParameterState::start(3, None, rule);
     let due = |state: &mut ParameterState| {
-        state.step_coarsely(&CoarseStep { added: 1.0, noise: 0.0, ..CoarseStep::default() }, 0.0);
+        state.step_coarsely(&CoarseStep { added: 1.0, ..CoarseStep::default() }, 0.0);
         core::mem::replace(&mut state.stale, false)
     };
     assert_eq!([(); 6].map(|()| due(&mut state)), [false, false, true, false, false, true]);
