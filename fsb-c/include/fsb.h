@@ -192,7 +192,7 @@
 #define FSB_PARAMETER_HELD 9
 
 // sizeof(fsb_vehicle_t).
-#define FSB_VEHICLE_SIZE 10272
+#define FSB_VEHICLE_SIZE 10496
 
 // Alignment of fsb_vehicle_t.
 #define FSB_VEHICLE_ALIGNMENT 8
@@ -295,6 +295,9 @@ typedef struct fsb_axis_config_t {
   struct fsb_tuning_t observer;
   // Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
+  // Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
+  // known beforehand, else NaN. 1e-12..1e6.
+  double disturbance_sd;
   // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
   // The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
@@ -412,6 +415,9 @@ typedef struct fsb_rotation_config_t {
   struct fsb_tuning_t observer;
   // Standard deviation of a measurement [rad] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
+  // Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
+  // known beforehand, else NaN. 1e-12..1e6.
+  double disturbance_sd;
   // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
   // The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
@@ -491,6 +497,9 @@ typedef struct fsb_translation_config_t {
   struct fsb_tuning_t observer;
   // Standard deviation of a measurement [m] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
+  // Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
+  // known beforehand, else NaN. 1e-12..1e6.
+  double disturbance_sd;
   // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
   // The largest share of the filtered acceleration's mean square that the model may leave unexplained before k
@@ -565,6 +574,9 @@ typedef struct fsb_vehicle_group_t {
   struct fsb_tuning_t observer;
   // Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
+  // Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
+  // known beforehand, else NaN. 1e-12..1e6.
+  double disturbance_sd;
   // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
   // The largest relative standard deviation at which a parameter becomes valid. 1e-15..1e6.
@@ -641,7 +653,7 @@ typedef struct fsb_measured_t {
 // attitudes and from what its actuators did. Storage of the caller, static or a member: too large for most stacks.
 typedef struct fsb_vehicle_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[1284];
+  uint64_t opaque[1312];
 } fsb_vehicle_t;
 
 // Force and torque on the body about its centre of mass, along the body's axes.

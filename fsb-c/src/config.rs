@@ -132,8 +132,8 @@ macro_rules! configurations {
         $(
             const _: () = {
                 same!($config, SharedConfig, [
-                    period, substeps, block, turn, readout, identifier, observer, noise_sd, memory_tau, max_misfit,
-                    parameter_settle, state_settle, position_limit, input_limit,
+                    period, substeps, block, turn, readout, identifier, observer, noise_sd, disturbance_sd, memory_tau,
+                    max_misfit, parameter_settle, state_settle, position_limit, input_limit,
                 ]);
                 assert!(offset_of!($config, drift) == size_of::<SharedConfig>());
                 assert!(offset_of!($config, nominal) == offset_of!($config, drift) + $axes * size_of::<f64>());

@@ -55,6 +55,9 @@ pub struct fsb_rotation_config_t {
     pub observer: fsb_tuning_t,
     /// Standard deviation of a measurement [rad] where it is known beforehand, else NaN. 1e-12..1e6.
     pub noise_sd: f64,
+    /// Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
+    /// known beforehand, else NaN. 1e-12..1e6.
+    pub disturbance_sd: f64,
     /// Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
     pub memory_tau: f64,
     /// The largest share of the filtered acceleration's mean square that the model may leave unexplained before k

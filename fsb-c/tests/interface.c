@@ -161,6 +161,7 @@ static void configurations(void) {
   NAMED(observer.lambda, 0.0, FSB_CONFIG_NOT_POSITIVE, "observer.lambda");
   NAMED(observer.q, INFINITY, FSB_CONFIG_NOT_FINITE, "observer.q");
   NAMED(noise_sd, -1.0, FSB_CONFIG_NOT_POSITIVE, "noise_sd");
+  NAMED(disturbance_sd, 0.0, FSB_CONFIG_NOT_POSITIVE, "disturbance_sd");
   NAMED(memory_tau, 0.0, FSB_CONFIG_NOT_POSITIVE, "memory_tau");
   NAMED(memory_tau, NAN, FSB_CONFIG_NOT_FINITE, "memory_tau");
   NAMED(max_misfit, 0.0, FSB_CONFIG_NOT_POSITIVE, "max_misfit");

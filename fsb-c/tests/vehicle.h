@@ -67,6 +67,7 @@ static void vehicle_configurations(void) {
   VEHICLE_NAMED(translation.identifier.lambda, 1e4, FSB_CONFIG_TOO_FAST, "translation.identifier.lambda");
   VEHICLE_NAMED(rotation.observer.q, 1e-9, FSB_CONFIG_TOO_SLOW, "rotation.observer.q");
   VEHICLE_NAMED(translation.noise_sd, -1.0, FSB_CONFIG_NOT_POSITIVE, "translation.noise_sd");
+  VEHICLE_NAMED(rotation.disturbance_sd, 0.0, FSB_CONFIG_NOT_POSITIVE, "rotation.disturbance_sd");
   VEHICLE_NAMED(rotation.memory_tau, 0.0, FSB_CONFIG_NOT_POSITIVE, "rotation.memory_tau");
   VEHICLE_NAMED(translation.memory_tau, NAN, FSB_CONFIG_NOT_FINITE, "translation.memory_tau");
   VEHICLE_NAMED(translation.max_relative_sd, 0.0, FSB_CONFIG_NOT_POSITIVE, "translation.max_relative_sd");

@@ -77,7 +77,7 @@ impl core::error::Error for ConfigError {}
 
 const TEXT: &str = concat!(
     "period\0substeps\0block\0turn\0readout\0identifier.lambda\0identifier.q\0observer.lambda\0observer.q\0noise_sd\0",
-    "memory.tau\0=memory_tau\0drift\0nominal\0rule.min\0rule.max\0rule.max_relative_sd\0max_misfit\0",
+    "disturbance_sd\0memory.tau\0=memory_tau\0drift\0nominal\0rule.min\0rule.max\0rule.max_relative_sd\0max_misfit\0",
     "parameter_settle\0state_settle\0position_limit\0input_limit\0",
     "kp\0kd\0parameter_min\0=k_min\0parameter_max\0=k_max\0",
 );

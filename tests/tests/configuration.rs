@@ -160,6 +160,14 @@ fn known_values_and_limits() {
             &positive_and("noise_sd", &[(1e-13, OutOfRange("noise_sd")), (1.1e6, OutOfRange("noise_sd"))]),
         ),
         (
+            "disturbance_sd",
+            |c, x| c.disturbance_sd = Some(x),
+            &positive_and(
+                "disturbance_sd",
+                &[(1e-13, OutOfRange("disturbance_sd")), (1.1e6, OutOfRange("disturbance_sd"))],
+            ),
+        ),
+        (
             "max_misfit",
             |c, x| c.max_misfit = Some(x),
             &positive_and("max_misfit", &[(1.0 + 1e-6, OutOfRange("max_misfit"))]),
@@ -173,6 +181,7 @@ fn known_values_and_limits() {
         ("drift", |c, x| c.drift[1] = x, &[0.0, -9.81, 1e6, -1e6]),
         ("nominal", |c, x| c.nominal[1] = Some(x), &[1e-15, 1e15]),
         ("noise_sd", |c, x| c.noise_sd = Some(x), &[1e-12, 1e6]),
+        ("disturbance_sd", |c, x| c.disturbance_sd = Some(x), &[1e-12, 1e6]),
         ("max_misfit", |c, x| c.max_misfit = Some(x), &[1e-9, 1.0]),
         ("parameter_settle", |c, x| c.parameter_settle = x, &[0.0, 1e-9, 1e6]),
         ("position_limit", |c, x| c.position_limit = x, &[1e-9, 1e6]),

@@ -72,6 +72,7 @@ fn configuration<const N: usize, const P: usize>(words: &mut Words<'_>) -> Optio
         (config.position_limit, config.input_limit) = (100.0, 30.0);
         config.rule = [ParameterRule { min: 0.05, max: 20.0, max_relative_sd: 1e3 }; P];
     }
+    config.disturbance_sd = (choose(13, 2) == 0).then_some(0.1);
     config.max_misfit = (choose(12, 2) == 0).then_some(0.02);
     Some(config)
 }

@@ -60,6 +60,9 @@ pub struct fsb_vehicle_group_t {
     pub observer: fsb_tuning_t,
     /// Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN. 1e-12..1e6.
     pub noise_sd: f64,
+    /// Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
+    /// known beforehand, else NaN. 1e-12..1e6.
+    pub disturbance_sd: f64,
     /// Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
     pub memory_tau: f64,
     /// The largest relative standard deviation at which a parameter becomes valid. 1e-15..1e6.
@@ -163,6 +166,7 @@ impl fsb_vehicle_group_t {
             identifier: self.identifier.into(),
             observer: self.observer.into(),
             noise_sd: known(self.noise_sd),
+            disturbance_sd: known(self.disturbance_sd),
             readout: match self.readout {
                 FSB_READOUT_LEAST_SQUARES => Readout::LeastSquares,
                 FSB_READOUT_ABSOLUTE_RATIO => Readout::AbsoluteRatio,
@@ -194,6 +198,7 @@ impl From<GroupConfig> for fsb_vehicle_group_t {
             identifier: of.identifier.into(),
             observer: of.observer.into(),
             noise_sd: of.noise_sd.unwrap_or(f64::NAN),
+            disturbance_sd: of.disturbance_sd.unwrap_or(f64::NAN),
             memory_tau: match of.memory {
                 Memory::Fading { tau } => tau,
                 _ => f64::INFINITY,

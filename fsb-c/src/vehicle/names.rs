@@ -33,6 +33,7 @@ static NAMES: &str = texts!(
         "observer.lambda",
         "observer.q",
         "noise_sd",
+        "disturbance_sd",
         "max_relative_sd",
         "max_misfit",
         "parameter_settle",

@@ -255,7 +255,7 @@ impl Parts<'_> {
         let Some(parameter) = self.parameters.get_mut(if pooled { 0 } else { index }) else { return };
         if read && parameter.stale {
             let per_stride = common.covariance.per_stride;
-            let mut sum = Misfit::NONE;
+            let mut sum = Misfit::beside(common.expected_misfit(&progress.identifier));
             if pooled {
                 axes.iter().for_each(|axis| axis.share_misfit(&mut sum, per_stride));
             } else if let Some(axis) = axes.get(index) {

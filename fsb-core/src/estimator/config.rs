@@ -24,6 +24,12 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     /// Standard deviation of a measurement (m or rad), where it is known beforehand. It is used until enough samples have
     /// been seen to learn it; without it k̂ is not valid in the first 0.75/λ or so. 1e-12..=1e6.
     pub noise_sd: Option<f64>,
+    /// Standard deviation of the acceleration that neither the input nor the drift is the cause of (m/s² or rad/s²), of any axis: wind,
+    /// drag, actuators that do not quite do what they are told. It counts in the variance of k̂ from the first sample on, as an
+    /// acceleration that is correlated over 1/λ of the identifier: after a time t of accelerations of rms A sd(k)/k is about
+    /// (d/A) √(2/(λt)). One that stays is a `drift`, or for [`crate::regression::DragEstimator`]. `None`: only what the residuals show
+    /// of it counts, which the first k̂ is ahead of. Least squares only. 1e-12..=1e6.
+    pub disturbance_sd: Option<f64>,
     /// How k is read out.
     pub readout: Readout,
     /// How long the read-out remembers.
@@ -71,6 +77,8 @@ pub struct SharedConfig {
     pub observer: Tuning,
     /// See [`EstimatorConfig::noise_sd`]; NaN where it is not known.
     pub noise_sd: f64,
+    /// See [`EstimatorConfig::disturbance_sd`]; NaN where it is not known.
+    pub disturbance_sd: f64,
     /// τ of [`Memory::Fading`] (s); infinite for [`Memory::Infinite`].
     pub memory_tau: f64,
     /// See [`EstimatorConfig::max_misfit`]; NaN where it is not asked.
@@ -114,6 +122,7 @@ impl<const N: usize, const P: usize> EstimatorConfig<N, P> {
             identifier: self.identifier,
             observer: self.observer,
             noise_sd: or_nan(self.noise_sd),
+            disturbance_sd: or_nan(self.disturbance_sd),
             memory_tau: match self.memory {
                 Memory::Infinite => f64::INFINITY,
                 // An infinite τ is refused, as any that is not finite.
@@ -144,6 +153,7 @@ impl<const N: usize, const P: usize> EstimatorConfig<N, P> {
             identifier: Tuning::from_lambda(2.0),
             observer: Tuning::from_lambda(10.0),
             noise_sd: None,
+            disturbance_sd: None,
             readout: Readout::LeastSquares,
             memory: Memory::Infinite,
             drift: [0.0; N],

@@ -65,7 +65,10 @@ pub(super) struct Common {
     /// 1 - μ over a block, for one of the axes that share a parameter: together they forget what τ says
     pub forgetting: f32,
     pub noise: NoiseLevel,
-    pub any_drift: bool,
+    /// Variance, behind the cascade, of what neither input nor drift is the cause of.
+    pub disturbance: f32,
+    /// An axis has a drift, or there is a disturbance: ẑu is needed.
+    pub wants_unit: bool,
     /// T²
     pub period2: f32,
     /// The share that may stay unexplained; beyond 1 nothing is.
@@ -108,7 +111,7 @@ impl AxisDesign {
     #[inline(never)]
     pub fn new(drift: f64, common: &mut Common, checks: &mut Checks) -> Self {
         let rounded = checks.signed(rule!("drift", Range::MAGNITUDE), drift);
-        common.any_drift |= rounded != 0.0;
+        common.wants_unit |= rounded != 0.0;
         let period = Wide::new(common.measurement_period);
         Self { drift: rounded, drift_t2: (Wide::new(drift) * (period * period)).rounded() }
     }
@@ -180,7 +183,8 @@ impl Common {
         plain: false,
         forgetting: 0.0,
         noise: NoiseLevel::UNKNOWN,
-        any_drift: false,
+        disturbance: 0.0,
+        wants_unit: false,
         period2: 0.0,
         max_misfit: 0.0,
         parameter_settle: 0,
@@ -227,6 +231,10 @@ impl Common {
             Some(sd) => NoiseLevel::expected(sd * sd / block_length),
             None => NoiseLevel::UNKNOWN,
         };
+        let disturbance = checks.if_known(rule!("disturbance_sd", NOISE), config.disturbance_sd).unwrap_or(0.0);
+        // What of one that is correlated over 1/λ comes through the three stages: with the correlation of residuals 2 d²/(λT).
+        self.disturbance = 0.375 * (disturbance * disturbance);
+        self.wants_unit = disturbance > 0.0;
         let misfit = checks.if_known(rule!("max_misfit", Range::SHARE), config.max_misfit);
         self.max_misfit = misfit.unwrap_or(f32::INFINITY);
         self.position_limit = checks.number(rule!("position_limit", Range::LIMIT), config.position_limit);

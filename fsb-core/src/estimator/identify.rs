@@ -30,7 +30,7 @@ impl Axis {
     ) {
         self.cascade.step_folded(mean.y, mean.s, &common.identifier, &clock.at);
         let mut z2 = self.cascade.z2();
-        if common.any_drift {
+        if common.wants_unit {
             z2 -= self.own.drift * clock.unit.zu();
         }
         let coarse = clock.stride == 0 && clock.is_shaped(common);
@@ -142,7 +142,7 @@ impl Axis {
         let covariance = &common.covariance;
         let step = self.observer.innovation() - self.innovation_before;
         // With the quotient of this very moment: the one read last may be from before the take-off.
-        let to_mean = covariance.stride / (clock.shape.variance() * common.identifier.scale2());
+        let to_mean = common.measurement_scale(clock);
         let quotient = parameter.ratio.quotient();
         let residual = z2 - quotient * z0;
         if self.gap == 0 || self.noise.is_known() {
@@ -173,13 +173,23 @@ impl Axis {
             }
             None => beyond,
         };
-        let disturbance = if beyond > 0.0 && self.noise.is_known() { covariance.correlation * beyond } else { 0.0 };
+        // As much as is seen, where it can be, and no less than is expected.
+        let expected = common.expected(clock);
+        let beyond = if beyond > expected && self.noise.is_known() { beyond } else { expected };
+        let disturbance = covariance.correlation * beyond;
         let (noise, disturbance) = match common.readout {
             Readout::LeastSquares => (of_noise, disturbance),
             Readout::AbsoluteRatio => (0.0, 0.0),
         };
         let step = CoarseStep { added: covariance.stride * down * z0, noise, weight: up, disturbance };
         parameter.step_coarsely(&step, covariance.forgetting);
+    }
+
+    /// Of ẑ2, by noise and by the disturbance that is expected; none before the noise and its shape are known.
+    pub fn variance(&self, clock: &IdentifierClock, common: &Common) -> Option<f32> {
+        let known = self.present && self.noise.is_known() && clock.is_shaped(common);
+        let of_noise = self.noise.measurement_variance() * clock.shape.variance() * common.identifier.scale2();
+        known.then_some(of_noise + common.expected(clock))
     }
 
     /// The variance of a block's mean from the squared step of the innovation. A block has the noise of as many measurements as
@@ -209,7 +219,7 @@ impl Axis {
         if !self.present {
             return;
         }
-        let (unexplained, signal) = self.noise.misfit();
+        let (unexplained, signal) = self.noise.misfit(to.disturbance);
         // While the noise level is not known the variance is not, unless nothing has been added yet.
         to.known &= sum == 0.0 || self.noise.is_known();
         to.unexplained += unexplained;
@@ -220,6 +230,26 @@ impl Axis {
     #[inline(never)]
     pub fn share_misfit(&self, to: &mut Misfit, per_stride: f32) {
         self.add_misfit(to, per_stride);
+    }
+}
+
+impl Common {
+    /// Variance of ẑ2 by the disturbance that is expected.
+    #[inline(always)]
+    fn expected(&self, clock: &IdentifierClock) -> f32 {
+        self.disturbance * (clock.unit.zu() * clock.unit.zu())
+    }
+
+    /// From a square of ẑ2 to the variance that measurements would need for it.
+    #[inline(always)]
+    fn measurement_scale(&self, clock: &IdentifierClock) -> f32 {
+        self.covariance.stride / (clock.shape.variance() * self.identifier.scale2())
+    }
+
+    /// The disturbance that is expected as that variance, which is where misfits are compared.
+    #[inline(always)]
+    pub fn expected_misfit(&self, clock: &IdentifierClock) -> f32 {
+        if self.disturbance > 0.0 { self.expected(clock) * self.measurement_scale(clock) } else { 0.0 }
     }
 }
 
@@ -234,10 +264,15 @@ pub(super) struct Misfit {
     /// What the model leaves unexplained beyond noise, and what there is to explain.
     pub unexplained: f32,
     pub signal: f32,
+    /// What is expected to be there without the model explaining it.
+    disturbance: f32,
 }
 
 impl Misfit {
-    pub const NONE: Self = Self { known: true, gain: 0.0, variance: 0.0, unexplained: 0.0, signal: 0.0 };
+    /// Nothing yet, where a disturbance of that variance is expected, in the square of the position's unit.
+    pub const fn beside(disturbance: f32) -> Self {
+        Self { known: true, gain: 0.0, variance: 0.0, unexplained: 0.0, signal: 0.0, disturbance }
+    }
 
     /// A gain below this is made of numbers that are too small for f32: of a window that has hardly opened yet.
     const LEAST: f32 = 1e-34;

@@ -122,6 +122,10 @@ pub(crate) struct IdentifierView<const N: usize> {
     pub forgetting: f32,
     /// ẑ0, scaled.
     pub z0: [f32; N],
+    /// ẑ2 without what the drift has in it, scaled alike.
+    pub z2: [f32; N],
+    /// Variance of ẑ2 by noise and by the disturbance that is expected, where it is known.
+    pub variances: [Option<f32>; N],
     /// Whether the step has been added to the sums.
     pub counts: [bool; N],
     /// Σ ω ẑ0 of the axis's parameter.

@@ -108,6 +108,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             per_length: common.block.per_length,
             forgetting: common.forgetting,
             z0: axes.each_ref().map(|axis| axis.cascade.z0()),
+            z2: axes.each_ref().map(|axis| axis.cascade.z2() - axis.own.drift * clock.unit.zu()),
+            variances: axes.each_ref().map(|axis| axis.variance(clock, common)),
             // The window is zero in the first two steps; a block of predictions says nothing.
             counts: axes
                 .each_ref()

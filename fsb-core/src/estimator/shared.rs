@@ -167,7 +167,7 @@ impl IdentifierClock {
             self.settled = self.window.is_settled();
             self.window.step(&identifier.window);
         }
-        if common.any_drift {
+        if common.wants_unit {
             self.unit.step(identifier, &self.at);
         }
         self.blocks = self.blocks.saturating_add(1);

@@ -105,13 +105,14 @@ impl<const N: usize, const P: usize> Whole for Estimator<N, P> {
         for word in [common.substeps, common.block_length, common.schedule.turn, common.parameter_settle] {
             hash.add(word);
         }
-        for word in [common.state_settle, common.readout as u32, common.covariance.steps, u32::from(common.any_drift)] {
+        for word in [common.state_settle, common.readout as u32, common.covariance.steps, u32::from(common.wants_unit)]
+        {
             hash.add(word);
         }
         for number in [common.period2, common.observer.c(), common.identifier.c, common.identifier.scale] {
             hash.add(number.to_bits());
         }
-        for number in [common.forgetting, common.position_limit, common.input_limit] {
+        for number in [common.disturbance, common.forgetting, common.position_limit, common.input_limit] {
             hash.add(number.to_bits());
         }
         for tuning in [common.observer_tuning.lambda, common.observer_tuning.q, common.measurement_period] {

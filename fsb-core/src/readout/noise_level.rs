@@ -45,6 +45,8 @@ impl NoiseLevel {
     const RECENT: u16 = 32;
     /// A residual of so many times the variance of the measurement noise may still be noise.
     pub(crate) const EXPLAINED: f32 = 25.0;
+    /// The mean of as many residuals may be so many times the variance of a disturbance, which lasts for some of them.
+    const EXPECTED: f32 = 9.0;
 
     /// Where most measurements are missing, the level learned from those that came after gaps tells of the predictions as well.
     const STRETCH: f32 = 3.0;
@@ -134,10 +136,10 @@ impl NoiseLevel {
         [self.fine, self.slow]
     }
 
-    /// What the model leaves unexplained, beyond what measurement noise of this level can explain, and what there is to
-    /// explain: both in the square of the position's unit.
-    pub(crate) fn misfit(&self) -> (f32, f32) {
-        let noise = Self::EXPLAINED * self.fine;
+    /// What the model leaves unexplained, beyond what measurement noise of this level and the `disturbance` that is expected can
+    /// explain, and what there is to explain: all in the square of the position's unit.
+    pub(crate) fn misfit(&self, disturbance: f32) -> (f32, f32) {
+        let noise = Self::EXPLAINED * self.fine + Self::EXPECTED * disturbance;
         (if self.residual > noise { self.residual } else { 0.0 }, self.signal)
     }
 

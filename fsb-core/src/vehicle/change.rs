@@ -12,13 +12,19 @@
 //! The sums go over the axes at an instant, which tells a large change at once, and over the last 10/λ as well, which finds it
 //! in noise: r has little power where φ has most, so that its var κ, taken as that of white noise, is on the safe side.
 //!
+//! An acceleration that is expected to be there without any change, of standard deviation d, adds what it makes of r, T² d/(T l2),
+//! to the noise; over the last 10/λ as what is correlated over 2/λ.
+//!
+//! What the innovations hide the identifier's residuals may show ([`super::residual`]).
+//!
 //! A change is one by more than `relative` and by more than `sigmas`, several instants in succession, and never where the input
 //! is small beside what it has been: there an unknown moment would be taken for a change of inertia. After a long gap all of it
 //! begins anew, as after a start.
 
 use super::config::ChangeRule;
+use super::residual::Residuals;
 use crate::error::{ConfigError, finite, positive};
-use crate::estimator::InnovationView;
+use crate::estimator::{IdentifierView, InnovationView};
 use crate::snapshot::{Archive, Fingerprint, Stored, stored};
 
 /// φ and what it comes from, one axis.
@@ -38,6 +44,8 @@ pub(super) struct Detector {
     period2: f32,
     /// var r over σ²
     innovation_gain: f32,
+    /// T² d
+    disturbance: f32,
     /// Instants after a start in which nothing is decided.
     hold_off: u32,
     /// Instants in succession that make a change.
@@ -57,6 +65,7 @@ pub(super) struct Detector {
     known: [bool; 3],
     /// At any time of this identification.
     was_known: [bool; 3],
+    residuals: Residuals,
 }
 
 impl Detector {
@@ -65,8 +74,15 @@ impl Detector {
     /// φ² that has grown to so many times its mean, nothing being measured, is what a gap makes of it.
     const GAP: f32 = 100.0;
 
-    /// `period` is that of the measurements (s), λ (1/s) the observer's.
-    pub fn new(rule: &ChangeRule, lambda: f64, period: f64, pooled: bool) -> Result<Self, ConfigError> {
+    /// `period` is that of the measurements (s), λ (1/s) the observer's, and the standard deviation that of the disturbance (m/s² or
+    /// rad/s²), which has been checked.
+    pub fn new(
+        rule: &ChangeRule,
+        lambda: f64,
+        period: f64,
+        disturbance_sd: f64,
+        pooled: bool,
+    ) -> Result<Self, ConfigError> {
         let hold_off = finite("change.hold_off", rule.hold_off)?;
         if hold_off < 0.0 {
             return Err(ConfigError::Negative("change.hold_off"));
@@ -84,22 +100,28 @@ impl Detector {
         let hold_off = libm::fmax(hold_off, 4.0 / lambda);
         let p = libm::exp(-lambda * period);
         let count = |seconds: f64| libm::fmin(libm::ceil(seconds / period), 4e9) as u32;
+        let (relative, sigmas2) = (rule.relative as f32, (rule.sigmas * rule.sigmas) as f32);
         Ok(Self {
-            relative: rule.relative as f32,
-            sigmas2: (rule.sigmas * rule.sigmas) as f32,
+            relative,
+            sigmas2,
             period2: (period * period) as f32,
             innovation_gain: ((6.0 + 2.0 * p) / ((1.0 + p) * (1.0 + p) * (1.0 + p))) as f32,
+            disturbance: (period * period * disturbance_sd) as f32,
             hold_off: count(hold_off),
             enough: count(0.2 / lambda).max(5),
             pooled,
             responses: [Response::default(); 3],
             usual: [0.0; 3],
-            statistics: [Statistic::new(0.0), Statistic::new(libm::exp(-0.1 * lambda * period))],
+            statistics: [
+                Statistic::new(0.0, 1.0),
+                Statistic::new(libm::exp(-0.1 * lambda * period), 1.0 + 2.0 / (lambda * period)),
+            ],
             instants: 0,
             contradicted: 0,
             measured: false,
             known: [false; 3],
             was_known: [false; 3],
+            residuals: Residuals::new(relative, sigmas2, pooled),
         })
     }
 
@@ -109,6 +131,7 @@ impl Detector {
         for statistic in &mut self.statistics {
             statistic.reset();
         }
+        self.residuals.reset();
         (self.instants, self.contradicted, self.was_known) = (0, 0, [false; 3]);
     }
 
@@ -159,6 +182,16 @@ impl Detector {
         streak >= self.enough || self.contradicted >= self.enough
     }
 
+    /// Whether the identifier, which has come to so many blocks, has taken a step that has not been looked at.
+    pub fn is_behind(&self, blocks: u32) -> bool {
+        self.residuals.are_behind(blocks)
+    }
+
+    /// After a step of the identifier, as [`observe`](Self::observe): whether a parameter has changed.
+    pub fn observe_residuals(&mut self, view: &IdentifierView<3>, known: &[Option<f32>; 3]) -> bool {
+        self.residuals.observe(view, known) && self.instants > self.hold_off
+    }
+
     /// What a parameter that has just become known left in the innovations while another value was predicted with, its own and by
     /// the gyroscopic moment the others', tells nothing of a change of it.
     fn forget_guesses(&mut self, known: &[Option<f32>; 3]) {
@@ -191,6 +224,7 @@ impl Detector {
     /// Of each parameter, the first one where all axes share it.
     fn terms(&self, view: &InnovationView<3>) -> [Terms; 3] {
         let mut terms = [Terms::default(); 3];
+        let of_disturbance = if view.t_l2 > 0.0 { self.disturbance / view.t_l2 } else { 0.0 };
         let of_axes = self.responses.iter().zip(&view.innovations).zip(&view.noise_variances);
         for (axis, ((response, r), noise)) in of_axes.enumerate() {
             if let Some(noise) = noise
@@ -200,18 +234,20 @@ impl Detector {
                 term.product += r * response.phi;
                 term.square += square;
                 term.variance += square * (noise * self.innovation_gain);
+                term.disturbed += square * (of_disturbance * of_disturbance);
             }
         }
         terms
     }
 }
 
-/// Σ r φ, Σ φ² and var Σ r φ.
+/// Σ r φ, Σ φ², and var Σ r φ by noise and by the disturbance.
 #[derive(Clone, Copy, Debug, Default)]
 struct Terms {
     product: f32,
     square: f32,
     variance: f32,
+    disturbed: f32,
 }
 
 /// What a change has to exceed.
@@ -228,17 +264,19 @@ struct Limits {
 struct Statistic {
     /// e^(-T/τ), zero for none.
     keep: f32,
+    /// Instants over which a disturbance is about the same.
+    correlation: f32,
     sums: [Terms; 3],
     streaks: [u32; 3],
 }
 
 impl Statistic {
-    fn new(keep: f64) -> Self {
-        Self { keep: keep as f32, sums: [Terms::default(); 3], streaks: [0; 3] }
+    fn new(keep: f64, correlation: f64) -> Self {
+        Self { keep: keep as f32, correlation: correlation as f32, sums: [Terms::default(); 3], streaks: [0; 3] }
     }
 
     fn reset(&mut self) {
-        *self = Self { keep: self.keep, ..Self::new(0.0) };
+        (self.sums, self.streaks) = Default::default();
     }
 
     /// The longest streak.
@@ -250,9 +288,10 @@ impl Statistic {
             sum.product = keep * sum.product + term.product;
             sum.square = keep * sum.square + term.square;
             sum.variance = keep * keep * sum.variance + term.variance;
+            sum.disturbed = keep * keep * sum.disturbed + term.disturbed;
             // κ beyond both limits, each multiplied by T² Σ φ².
             let shows = k.is_some_and(|k| sum.product.abs() > limits.relative * k * sum.square)
-                && sum.product * sum.product > limits.sigmas2 * sum.variance;
+                && sum.product * sum.product > limits.sigmas2 * (sum.variance + self.correlation * sum.disturbed);
             let judged = limits.open && share * sum.square > *least;
             *streak = if judged && shows { streak.saturating_add(1) } else { 0 };
             longest = longest.max(*streak);
@@ -262,7 +301,7 @@ impl Statistic {
 }
 
 stored!(Response { phi, e, w });
-stored!(Terms { product, square, variance });
+stored!(Terms { product, square, variance, disturbed });
 stored!(Statistic { sums, streaks });
 
 impl Stored for Detector {
@@ -275,6 +314,7 @@ impl Stored for Detector {
         self.measured.pass(archive);
         self.known.pass(archive);
         self.was_known.pass(archive);
+        self.residuals.pass(archive);
     }
 }
 
@@ -284,7 +324,7 @@ impl Detector {
 
     /// What tells detectors apart.
     pub fn add_to(&self, hash: &mut Fingerprint) {
-        for number in [self.relative, self.sigmas2, self.period2, self.innovation_gain] {
+        for number in [self.relative, self.sigmas2, self.period2, self.innovation_gain, self.disturbance] {
             hash.add_number(number);
         }
         for count in [self.hold_off, self.enough] {
@@ -297,11 +337,13 @@ impl Detector {
         let largest = Self::MOST * Self::MOST;
         let is_square = |x: f32| (0.0..=largest).contains(&x);
         self.responses.iter().flat_map(|response| [response.phi, response.e, response.w]).all(|x| x.abs() <= Self::MOST)
+            && self.residuals.is_sound()
             && self.usual.iter().all(|&x| is_square(x))
-            && self
-                .statistics
-                .iter()
-                .flat_map(|statistic| &statistic.sums)
-                .all(|sum| sum.product.abs() <= largest && is_square(sum.square) && is_square(sum.variance))
+            && self.statistics.iter().flat_map(|statistic| &statistic.sums).all(|sum| {
+                sum.product.abs() <= largest
+                    && is_square(sum.square)
+                    && is_square(sum.variance)
+                    && is_square(sum.disturbed)
+            })
     }
 }

@@ -56,6 +56,9 @@ pub struct GroupConfig {
     pub observer: Tuning,
     /// Standard deviation of a measurement (m or rad), where it is known beforehand.
     pub noise_sd: Option<f64>,
+    /// Standard deviation of the acceleration that force and torque do not account for (m/s² or rad/s²), where it is known
+    /// beforehand; see [`crate::EstimatorConfig::disturbance_sd`]. A change ([`ChangeRule`]) has to stand out from it.
+    pub disturbance_sd: Option<f64>,
     /// How the parameters are read out.
     pub readout: Readout,
     /// How long the read-out remembers.
@@ -78,7 +81,8 @@ pub struct GroupConfig {
 }
 
 /// When a change of a parameter k (1/m, 1/I) is taken as such, and its group identified anew; so is one with a parameter that was
-/// known and is contradicted.
+/// known and is contradicted. In wind, or with actuators that do not quite do what they are told, give [`GroupConfig::disturbance_sd`]
+/// as well: without it what they do is taken for a change, again and again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ChangeRule {
@@ -121,6 +125,7 @@ impl GroupConfig {
             identifier: Tuning::from_lambda(4.0),
             observer: Tuning::from_lambda(observer),
             noise_sd: None,
+            disturbance_sd: None,
             readout: Readout::LeastSquares,
             memory: Memory::Infinite,
             max_relative_sd: 0.05,

@@ -52,6 +52,7 @@ fn common<const P: usize>(period: f64, group: &GroupConfig) -> EstimatorConfig<3
         identifier: group.identifier,
         observer: group.observer,
         noise_sd: group.noise_sd,
+        disturbance_sd: group.disturbance_sd,
         readout: group.readout,
         memory: group.memory,
         max_misfit: group.max_misfit,
@@ -110,7 +111,7 @@ macro_rules! names {
 macro_rules! groups {
     ($($function:ident, $group:literal, $drift:literal, $nominal:literal;)+) => {
         $(names!($function, $group, $drift, $nominal, [
-            "substeps", "block", "identifier.lambda", "identifier.q", "observer.lambda", "observer.q", "noise_sd",
+            "substeps", "block", "identifier.lambda", "identifier.q", "observer.lambda", "observer.q", "noise_sd", "disturbance_sd",
             "memory.tau", "max_misfit", "parameter_settle", "state_settle", "input_limit", "guard.sigmas",
             "guard.acceleration", "guard.floor", "guard.jump_after", "guard.bridge", "guard.frozen_after",
         ]);)+

@@ -326,5 +326,7 @@ fn is_pushed(verdicts: &[Verdict; 3]) -> bool {
 /// The detector of a group, where one is configured.
 fn detector(config: &VehicleConfig, group: &GroupConfig, pooled: bool) -> Result<Option<Detector>, ConfigError> {
     let period = config.period * f64::from(group.substeps);
-    config.change.as_ref().map(|rule| Detector::new(rule, group.observer.lambda, period, pooled)).transpose()
+    let disturbance_sd = group.disturbance_sd.unwrap_or(0.0);
+    let new = |rule| Detector::new(rule, group.observer.lambda, period, disturbance_sd, pooled);
+    config.change.as_ref().map(new).transpose()
 }

@@ -56,6 +56,7 @@ mod measured;
 mod output;
 mod readings;
 mod reinitialise;
+mod residual;
 mod retroactive;
 mod state;
 mod stored;

@@ -52,8 +52,12 @@ impl<const D: usize> VehicleEstimator<D> {
     pub(super) fn mass_has_changed(&mut self) -> bool {
         let Some(detector) = &mut self.translation_change else { return false };
         let ([k], [contradicted]) = (identified(&self.translation), contradicted(&self.translation));
-        let changed =
-            detector.observe(&self.translation.innovation_view(), &[k, None, None], &[contradicted, false, false]);
+        let known = [k, None, None];
+        let view = self.translation.innovation_view();
+        let mut changed = detector.observe(&view, &known, &[contradicted, false, false]);
+        if detector.is_behind(self.translation.identifier_blocks()) {
+            changed |= detector.observe_residuals(&self.translation.identifier_view(), &known);
+        }
         if changed {
             self.reinitialise(Group::Translation);
         }
@@ -63,11 +67,11 @@ impl<const D: usize> VehicleEstimator<D> {
     /// Looks for a change after a measurement instant of the group, and acts on it.
     pub(super) fn inertia_has_changed(&mut self) -> bool {
         let Some(detector) = &mut self.rotation_change else { return false };
-        let changed = detector.observe(
-            &self.rotation.innovation_view(),
-            &identified(&self.rotation),
-            &contradicted(&self.rotation),
-        );
+        let (known, contradicted) = (identified(&self.rotation), contradicted(&self.rotation));
+        let mut changed = detector.observe(&self.rotation.innovation_view(), &known, &contradicted);
+        if detector.is_behind(self.rotation.identifier_blocks()) {
+            changed |= detector.observe_residuals(&self.rotation.identifier_view(), &known);
+        }
         if changed {
             self.reinitialise(Group::Rotation);
             self.rotation.suspect_disturbance();

@@ -49,20 +49,20 @@ fn the_larger_of_two() {
 fn the_misfit() {
     let mut level = NoiseLevel::default();
     level.add(1.0, 25.0, 7.0, 256);
-    assert_eq!(level.misfit(), (0.0, 7.0), "that may still be noise");
+    assert_eq!(level.misfit(0.0), (0.0, 7.0), "that may still be noise");
     level.add(1.0, 35.0, 9.0, 256);
-    assert_eq!(level.misfit(), (30.0, 8.0));
+    assert_eq!(level.misfit(0.0), (30.0, 8.0));
     // The 32 values: 30 more of 30 and 8, then one of 94 and 72 moves the means by a 32nd of the distance.
     for _ in 0..30 {
         level.add(1.0, 30.0, 8.0, 256);
     }
     level.add(1.0, 94.0, 72.0, 256);
-    let (unexplained, signal) = level.misfit();
+    let (unexplained, signal) = level.misfit(0.0);
     assert!((unexplained - 32.0).abs() < 1e-4 && (signal - 10.0).abs() < 1e-4, "{unexplained}, {signal}");
     for _ in 0..1000 {
         level.add(1.0, 26.0, 1.0, 256);
     }
-    let (unexplained, signal) = level.misfit();
+    let (unexplained, signal) = level.misfit(0.0);
     assert!((unexplained - 26.0).abs() < 1e-3 && (signal - 1.0).abs() < 1e-3, "{unexplained}, {signal}");
 }
 
