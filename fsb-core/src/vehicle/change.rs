@@ -74,12 +74,13 @@ impl Detector {
     /// φ² that has grown to so many times its mean, nothing being measured, is what a gap makes of it.
     const GAP: f32 = 100.0;
 
-    /// `period` is that of the measurements (s), λ (1/s) the observer's, and the standard deviation that of the disturbance (m/s² or
-    /// rad/s²), which has been checked.
+    /// `period` is that of the measurements (s), λ (1/s) the observer's, `step` the identifier's λ times its period, and the standard
+    /// deviation that of the disturbance (m/s² or rad/s²); all have been checked.
     pub fn new(
         rule: &ChangeRule,
         lambda: f64,
         period: f64,
+        step: f64,
         disturbance_sd: f64,
         pooled: bool,
     ) -> Result<Self, ConfigError> {
@@ -121,7 +122,7 @@ impl Detector {
             measured: false,
             known: [false; 3],
             was_known: [false; 3],
-            residuals: Residuals::new(relative, sigmas2, pooled),
+            residuals: Residuals::new(relative, sigmas2, step, pooled),
         })
     }
 

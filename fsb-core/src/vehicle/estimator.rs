@@ -327,6 +327,7 @@ fn is_pushed(verdicts: &[Verdict; 3]) -> bool {
 fn detector(config: &VehicleConfig, group: &GroupConfig, pooled: bool) -> Result<Option<Detector>, ConfigError> {
     let period = config.period * f64::from(group.substeps);
     let disturbance_sd = group.disturbance_sd.unwrap_or(0.0);
-    let new = |rule| Detector::new(rule, group.observer.lambda, period, disturbance_sd, pooled);
+    let step = group.identifier.lambda * period * f64::from(group.block);
+    let new = |rule| Detector::new(rule, group.observer.lambda, period, step, disturbance_sd, pooled);
     config.change.as_ref().map(new).transpose()
 }

@@ -58,34 +58,42 @@ pub(super) struct Residuals {
     relative: f32,
     sigmas2: f32,
     pooled: bool,
+    /// Steps of the identifier from one look to the next.
+    every: u32,
     blocks: u32,
     sums: [Sums; 3],
-    /// Steps in succession that have shown a change.
+    /// For how long, times λ, each has shown a change.
     streaks: [f32; 3],
 }
 
 impl Residuals {
-    pub const fn new(relative: f32, sigmas2: f32, pooled: bool) -> Self {
-        let sums = Sums { squares: 0.0, product: 0.0, square: 0.0, values: 0.0 };
-        Self { relative, sigmas2, pooled, blocks: 0, sums: [sums; 3], streaks: [0.0; 3] }
+    /// λT by which residuals hardly change.
+    const SAME: f64 = 0.08;
+
+    /// `step` is λ times the identifier's period.
+    pub fn new(relative: f32, sigmas2: f32, step: f64, pooled: bool) -> Self {
+        let every = libm::fmin(Self::SAME / step, 1e6) as u32;
+        let (sums, streaks) = Default::default();
+        Self { relative, sigmas2, pooled, every: every.max(1), blocks: 0, sums, streaks }
     }
 
     /// The identification has begun anew.
     pub fn reset(&mut self) {
-        *self = Self::new(self.relative, self.sigmas2, self.pooled);
+        (self.blocks, self.sums, self.streaks) = Default::default();
     }
 
-    /// Whether the identifier, which has come to so many blocks, has stepped since the last [`observe`](Self::observe).
+    /// Whether the identifier, which has come to so many blocks, is steps enough further than at the last look, or has begun anew.
     pub fn are_behind(&self, blocks: u32) -> bool {
-        blocks != self.blocks
+        blocks < self.blocks || blocks - self.blocks >= self.every
     }
 
-    /// After a step of the identifier: whether one of the parameters, `known` where they are, has changed. Cost: about 70 operations.
+    /// A look after a step of the identifier: whether one of the parameters, `known` where they are, has changed. Cost: about 70 operations.
     pub fn observe(&mut self, view: &IdentifierView<3>, known: &[Option<f32>; 3]) -> bool {
         self.blocks = view.blocks;
         // Over 3/λ, which is all one value: as correlated as that.
-        let keep = 1.0 - view.c * (1.0 / 3.0);
-        let sigmas2 = self.sigmas2 * 3.0 / view.c;
+        let since = view.c * self.every as f32;
+        let keep = 1.0 - since * (1.0 / 3.0);
+        let sigmas2 = self.sigmas2 * 3.0 / since;
         for (sums, known) in self.sums.iter_mut().zip(known) {
             if known.is_some() { sums.fade(keep) } else { *sums = Sums::default() }
         }
@@ -100,7 +108,7 @@ impl Residuals {
         let mut changed = false;
         for ((streak, sums), k) in self.streaks.iter_mut().zip(&self.sums).zip(known) {
             let shows = k.is_some() && sums.show(self.relative, sigmas2);
-            *streak = if shows { *streak + view.c } else { 0.0 };
+            *streak = if shows { *streak + since } else { 0.0 };
             changed |= *streak > 0.2;
         }
         changed
@@ -137,10 +145,13 @@ mod tests {
 
     /// Steps until a change is told, of `(ẑ2, ẑ0, variance)`, after 400 of a k that is right.
     fn told(pooled: bool, mut step: impl FnMut(f32) -> [(f32, f32, Option<f32>); 3]) -> Option<u32> {
-        let mut residuals = Residuals::new(0.15, 36.0, pooled);
+        let mut residuals = Residuals::new(0.15, 36.0, 0.04, pooled);
         let known = if pooled { [Some(K), None, None] } else { [Some(K); 3] };
         (0..1200).find(|&n| {
-            assert!(residuals.are_behind(n + 1));
+            assert_eq!(residuals.are_behind(n + 1), n % 2 == 1);
+            if n % 2 == 0 {
+                return false;
+            }
             let axes = if n < 400 { right(n) } else { step(n as f32) };
             let view = IdentifierView {
                 blocks: n + 1,

@@ -73,7 +73,7 @@ impl Scene {
 }
 
 fn detector(pooled: bool) -> Detector {
-    Detector::new(&ChangeRule::default(), LAMBDA, PERIOD, 0.0, pooled).expect("valid")
+    Detector::new(&ChangeRule::default(), LAMBDA, PERIOD, LAMBDA * PERIOD, 0.0, pooled).expect("valid")
 }
 
 /// The instant of the first alarm, counted from the change after 4 s, where k becomes `factor` K on the axes named.
