@@ -231,9 +231,13 @@ impl<const D: usize> VehicleEstimator<D> {
             return;
         }
         let Some(guesses) = all(self.rotation.prediction_parameters()) else { return };
+        // A value held may be the one of before a change.
         let mut k = self.rotation.parameters();
-        for (k, rough) in k.iter_mut().zip(self.rotation.rough_parameters()) {
-            *k = k.or(rough);
+        let newest = self.rotation.rough_parameters().into_iter().zip(self.rotation.parameter_status());
+        for (k, (rough, status)) in k.iter_mut().zip(newest) {
+            if status != ParameterStatus::Valid {
+                *k = rough;
+            }
         }
         if let Some(shifts) = retroactive.step(&self.rotation.identifier_view(), &k, &guesses) {
             for (axis, shift) in shifts.iter().enumerate() {
