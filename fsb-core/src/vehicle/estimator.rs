@@ -5,11 +5,11 @@ use super::change::Detector;
 use super::config::{GroupConfig, VehicleConfig};
 use super::delay::Delay;
 use super::design;
-use super::gyroscopic::Gyroscopic;
+use super::gyroscopic::{self, Gyroscopic};
 use super::measured::{Attitude, Measured, Wrench};
 use super::output::{Events, VehicleCounters};
 use super::retroactive::Retroactive;
-use super::triple::{all, difference, each, positions, rates, within};
+use super::triple::{difference, each, positions, rates, within};
 use crate::attitude::{AttitudeError, BodyAngles};
 use crate::error::ConfigError;
 use crate::estimator::Learning;
@@ -154,6 +154,9 @@ impl<const D: usize> VehicleEstimator<D> {
             if let Some(retroactive) = &mut self.retroactive {
                 retroactive.hold(&products, &differences);
             }
+        } else if let (Some(rates), Some(retroactive)) = (self.rotation.velocities(), &mut self.retroactive) {
+            // Nothing to predict with yet: it comes in later, all of it.
+            retroactive.hold(&gyroscopic::products(&rates), &[0.0; 3]);
         }
         self.rotation.apply_moments(&torque);
         course
@@ -222,7 +225,7 @@ impl<const D: usize> VehicleEstimator<D> {
         let view = self.rotation.innovation_view();
         if view.measured
             && self.rotation.parameter_status() != [ParameterStatus::Valid; 3]
-            && let Some(rates) = rates(&self.rotation.states())
+            && let Some(rates) = self.rotation.velocities()
         {
             retroactive.correct(&view, &rates, self.rotation_period);
         }
@@ -230,7 +233,7 @@ impl<const D: usize> VehicleEstimator<D> {
         if !retroactive.is_behind(self.rotation.identifier_blocks()) || self.rotation.learning() != Learning::On {
             return;
         }
-        let Some(guesses) = all(self.rotation.prediction_parameters()) else { return };
+        let guesses = self.rotation.prediction_parameters();
         // A value held may be the one of before a change.
         let mut k = self.rotation.parameters();
         let newest = self.rotation.rough_parameters().into_iter().zip(self.rotation.parameter_status());
