@@ -192,7 +192,7 @@
 #define FSB_PARAMETER_HELD 9
 
 // sizeof(fsb_vehicle_t).
-#define FSB_VEHICLE_SIZE 10272
+#define FSB_VEHICLE_SIZE 10288
 
 // Alignment of fsb_vehicle_t.
 #define FSB_VEHICLE_ALIGNMENT 8
@@ -233,7 +233,8 @@
 // The origin of the positions has jumped: they were followed, and velocity and mass have not noticed.
 #define FSB_EVENT_POSITION_JUMPED 8
 
-// A position came between two measurement instants, and was not taken.
+// A position came between two measurement instants, and was not taken, but for the last one of jump_after in succession: the
+// instants begin anew with it.
 #define FSB_EVENT_POSITION_OUT_OF_STEP 16
 
 // A force or a torque was not finite or beyond its limit; the one before was taken in its place.
@@ -641,7 +642,7 @@ typedef struct fsb_measured_t {
 // attitudes and from what its actuators did. Storage of the caller, static or a member: too large for most stacks.
 typedef struct fsb_vehicle_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[1284];
+  uint64_t opaque[1286];
 } fsb_vehicle_t;
 
 // Force and torque on the body about its centre of mass, along the body's axes.

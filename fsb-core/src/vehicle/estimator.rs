@@ -61,6 +61,9 @@ pub struct VehicleEstimator<const D: usize> {
     /// Attitudes in succession that were too far away to be followed, and how many make a start anew.
     pub(super) too_far: u32,
     pub(super) enough: u32,
+    /// Attitudes and positions in succession that came between two measurement instants, none at one, and how many positions make a start anew.
+    pub(super) early: [u32; 2],
+    pub(super) enough_positions: u32,
     /// Where the sums are those of least squares.
     pub(super) retroactive: Option<Retroactive>,
     pub(super) translation_change: Option<Detector>,
@@ -101,6 +104,8 @@ impl<const D: usize> VehicleEstimator<D> {
             last: Wrench::default(),
             too_far: 0,
             enough: config.rotation.guard.jump_after,
+            early: [0; 2],
+            enough_positions: config.translation.guard.jump_after,
             retroactive: match config.rotation.readout {
                 Readout::LeastSquares => Some(Retroactive::new(Substep::new(config.rotation.substeps)?)),
                 Readout::AbsoluteRatio => None,
@@ -188,6 +193,10 @@ impl<const D: usize> VehicleEstimator<D> {
             Some(Err(_)) => events.attitude_rejected = true,
             None => {}
         }
+        if angles.is_some() && self.attitude_is_early() {
+            self.rotation.restart();
+            self.begin_rotation();
+        }
         if self.rotation.is_due() {
             // In step, as it is due.
             let verdicts = self.rotation.measure(&each(angles)).unwrap_or_default();
@@ -253,6 +262,12 @@ impl<const D: usize> VehicleEstimator<D> {
         // Where one coordinate is nonsense the others are not to be trusted.
         let sound = position.filter(|position| within(position, self.position_limit));
         events.position_rejected = position.is_some() && sound.is_none();
+        if sound.is_some() && self.position_is_early(events) {
+            self.translation.restart();
+            if let Some(detector) = &mut self.translation_change {
+                detector.restart();
+            }
+        }
         if self.translation.is_due() {
             // In step, as it is due.
             let verdicts = self.translation.measure(&each(sound)).unwrap_or_default();
@@ -267,8 +282,6 @@ impl<const D: usize> VehicleEstimator<D> {
                 detector.restart();
             }
             events.mass_changed = self.mass_has_changed();
-        } else {
-            events.position_out_of_step = sound.is_some();
         }
     }
 
@@ -320,7 +333,7 @@ impl<const D: usize> VehicleEstimator<D> {
         self.forces.clear();
         self.actual = None;
         self.last = Wrench::default();
-        self.too_far = 0;
+        (self.too_far, self.early) = (0, [0; 2]);
         self.attitude_measured = false;
         self.begun = false;
     }

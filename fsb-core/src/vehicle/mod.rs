@@ -41,6 +41,7 @@
 //! | `change` | whether a parameter has changed |
 //! | `reinitialise` | parameters identified anew |
 //! | `delay` | inputs waiting for a measurement that comes late |
+//! | `step` | measurements between two measurement instants |
 //! | `stored` | what a snapshot holds |
 //! | `triple` | three numbers, one for each axis of a group |
 //! | `unwind` | body angles from a later origin |
@@ -58,6 +59,7 @@ mod readings;
 mod reinitialise;
 mod retroactive;
 mod state;
+mod step;
 mod stored;
 #[cfg(test)]
 mod tests;
