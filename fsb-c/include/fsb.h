@@ -1073,9 +1073,10 @@ fsb_status_t fsb_vehicle_update(struct fsb_vehicle_t *vehicle,
                                 const struct fsb_wrench_t *applied,
                                 uint32_t *events);
 
-// The control loop has been late by so many control periods, in which the actuators did what they were told last: as many
-// updates with nothing measured, at most those of twice `guard.bridge`. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
-// FSB_NOT_INITIALISED.
+// The control loop has been late by so many control periods, before the fsb_vehicle_update that ends the last of them: as many
+// updates with nothing measured and with the wrench of the last one, at most those of twice `guard.bridge`. That is the wrench of the
+// period before: where the actuators have been told another one since, as many updates with that one and with nothing measured are
+// right, and this is only nearly so. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED.
 fsb_status_t fsb_vehicle_missed(struct fsb_vehicle_t *vehicle,
                                 uint32_t periods);
 

@@ -310,8 +310,11 @@ impl<const D: usize> VehicleEstimator<D> {
         }
     }
 
-    /// The control loop has been late by so many control periods, in which the actuators did what they were told last. As
-    /// many updates with nothing measured, at most those that end in a start anew.
+    /// The control loop has been late by so many control periods, before the [`update`](Self::update) that ends the last of them. As many
+    /// updates with nothing measured and with the wrench of the last one, at most those that end in a start anew.
+    ///
+    /// That is the wrench of the period before the one now late. Where the actuators have been told another one since, and it is at hand, as many
+    /// updates with that one and nothing measured are right, and this is only nearly so.
     pub fn missed(&mut self, periods: u32) {
         let last = self.last;
         let most = self.translation.longest().max(self.rotation.longest());
