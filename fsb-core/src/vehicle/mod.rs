@@ -40,6 +40,7 @@
 //! | `retroactive` | the same with moments of inertia that were not known at the time |
 //! | `change` | whether a parameter has changed |
 //! | `reinitialise` | parameters identified anew |
+//! | `replaced` | forces and torques that were rejected |
 //! | `delay` | inputs waiting for a measurement that comes late |
 //! | `step` | measurements between two measurement instants |
 //! | `stored` | what a snapshot holds |
@@ -57,6 +58,7 @@ mod measured;
 mod output;
 mod readings;
 mod reinitialise;
+mod replaced;
 mod retroactive;
 mod state;
 mod step;

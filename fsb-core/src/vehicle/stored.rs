@@ -30,6 +30,7 @@ impl<const D: usize> Stored for VehicleEstimator<D> {
         self.forces.pass(archive);
         self.attitude_measured.pass(archive);
         self.last.pass(archive);
+        self.replaced.pass(archive);
         self.too_far.pass(archive);
         self.early.pass(archive);
         // What is there is a matter of the design.
@@ -81,6 +82,7 @@ impl<const D: usize> Whole for VehicleEstimator<D> {
             && self.rotation.is_sound()
             && self.angles.is_sound()
             && possible(&self.last)
+            && self.replaced.iter().all(|replaced| replaced.is_sound(self.wrenches.periods() + self.forces.periods()))
             && self.actual.iter().all(possible)
             && self.wrenches.iter().all(possible)
             && self.forces.iter().flatten().all(|moments| moments.j1.abs() <= most && moments.j2.abs() <= most)

@@ -1,0 +1,64 @@
+//! Forces and torques that were rejected, and replaced by the one before. One is a fault in the bits, and passes; where they go on nobody knows what
+//! acts, and what is learned from it would be wrong and look right.
+
+use super::estimator::VehicleEstimator;
+use crate::snapshot::stored;
+
+/// The inputs of one group.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Replaced {
+    /// Replaced in succession; stops at [`Self::MANY`].
+    count: u32,
+    /// Control periods until those that were replaced have acted, as far as the measurements know.
+    acting: u32,
+}
+
+impl Replaced {
+    /// So many in succession are no fault in the bits any more.
+    const MANY: u32 = 3;
+
+    /// A control period has ended, whose input was `rejected` or not; measurements are `late` by so many.
+    pub fn count(&mut self, rejected: bool, late: usize) {
+        self.count = match self.count {
+            count if rejected && count < Self::MANY => count + 1,
+            count if rejected => count,
+            _ => 0,
+        };
+        self.acting = if self.count == Self::MANY { late as u32 + 1 } else { self.acting.saturating_sub(1) };
+    }
+
+    pub const fn is_acting(self) -> bool {
+        self.acting > 0
+    }
+
+    /// Of a state that was stored.
+    pub const fn is_sound(self, late: usize) -> bool {
+        self.count <= Self::MANY && self.acting as usize <= late + 1
+    }
+}
+
+stored!(Replaced { count, acting });
+
+impl<const D: usize> VehicleEstimator<D> {
+    /// Before a measurement instant of the translation: nothing is learned from forces that were replaced. What is known stays.
+    pub(super) fn pass_over_forces(&mut self) {
+        let [force, _] = self.replaced;
+        if force.is_acting() {
+            self.translation.reopen_window();
+            if let Some(detector) = &mut self.translation_change {
+                detector.restart();
+            }
+        }
+    }
+
+    /// The same for the rotation and torques.
+    pub(super) fn pass_over_torques(&mut self) {
+        let [_, torque] = self.replaced;
+        if torque.is_acting() {
+            self.rotation.reopen_window();
+            if let Some(detector) = &mut self.rotation_change {
+                detector.restart();
+            }
+        }
+    }
+}
