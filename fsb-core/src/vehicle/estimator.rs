@@ -303,20 +303,24 @@ impl<const D: usize> VehicleEstimator<D> {
             self.last.torque = applied.torque;
         }
         events.wrench_rejected = sound != [true; 2];
-        let (late, between) = (self.wrenches.periods(), self.forces.periods());
-        for ((replaced, sound), late) in self.replaced.iter_mut().zip(sound).zip([late + between, late]) {
+        let late = self.late();
+        for ((replaced, sound), late) in self.replaced.iter_mut().zip(sound).zip(late) {
             replaced.count(!sound, late);
         }
         self.last
     }
 
     /// Whether to learn from now on, as [`Estimator::set_learning`](crate::Estimator::set_learning): on the ground
-    /// [`Learning::Contact`].
+    /// [`Learning::Contact`]. What was measured before learning is on again, where measurements are late, is not learned from.
     pub fn set_learning(&mut self, learning: Learning) {
         if learning != self.translation.learning() {
             self.translation.set_learning(learning);
             self.rotation.set_learning(learning);
             self.begin_identification();
+            if learning == Learning::On {
+                let late = self.late();
+                self.replaced.iter_mut().zip(late).for_each(|(replaced, late)| replaced.await_now(late));
+            }
         }
     }
 

@@ -1,5 +1,6 @@
-//! Forces and torques that were rejected, and replaced by the one before. One is a fault in the bits, and passes; where they go on nobody knows what
-//! acts, and what is learned from it would be wrong and look right.
+//! What is not to be learned from: forces and torques that were rejected, and replaced by the one before. One is a fault in the bits, and passes; where they
+//! go on nobody knows what acts, and what is learned from it would be wrong and look right. And where measurements are late, those of before
+//! the learning began, or of before a change of load that was told.
 
 use super::estimator::VehicleEstimator;
 use crate::snapshot::stored;
@@ -24,7 +25,18 @@ impl Replaced {
             count if rejected => count,
             _ => 0,
         };
-        self.acting = if self.count == Self::MANY { late as u32 + 1 } else { self.acting.saturating_sub(1) };
+        self.acting = self.acting.saturating_sub(1);
+        if self.count == Self::MANY && self.acting <= late as u32 {
+            self.acting = late as u32 + 1;
+        }
+    }
+
+    /// From now on everything is another: what the measurements know is so many control periods `late`.
+    pub fn await_now(&mut self, late: usize) {
+        let acting = if late > 0 { late as u32 + 2 } else { 0 };
+        if self.acting < acting {
+            self.acting = acting;
+        }
     }
 
     pub const fn is_acting(self) -> bool {
@@ -33,13 +45,19 @@ impl Replaced {
 
     /// Of a state that was stored.
     pub const fn is_sound(self, late: usize) -> bool {
-        self.count <= Self::MANY && self.acting as usize <= late + 1
+        self.count <= Self::MANY && self.acting as usize <= late + 2
     }
 }
 
 stored!(Replaced { count, acting });
 
 impl<const D: usize> VehicleEstimator<D> {
+    /// By how many control periods the force and the torque of now come before the measurements that know of them.
+    pub(super) fn late(&self) -> [usize; 2] {
+        let late = self.wrenches.periods();
+        [late + self.forces.periods(), late]
+    }
+
     /// Before a measurement instant of the translation: nothing is learned from forces that were replaced. What is known stays.
     pub(super) fn pass_over_forces(&mut self) {
         let [force, _] = self.replaced;
