@@ -68,6 +68,8 @@ pub struct VehicleEstimator<const D: usize> {
     /// Attitudes and positions in succession that came between two measurement instants, none at one, and how many positions make a start anew.
     pub(super) early: [u32; 2],
     pub(super) enough_positions: u32,
+    /// Control periods in which the rates recover from what was predicted in contact: 4/λ.
+    pub(super) recovery: u32,
     /// Where the sums are those of least squares.
     pub(super) retroactive: Option<Retroactive>,
     pub(super) translation_change: Option<Detector>,
@@ -110,6 +112,7 @@ impl<const D: usize> VehicleEstimator<D> {
             too_far: 0,
             enough: config.rotation.guard.jump_after,
             early: [0; 2],
+            recovery: libm::fmin(4.0 / (config.rotation.observer.lambda * config.period), 1e9) as u32,
             enough_positions: config.translation.guard.jump_after,
             retroactive: match config.rotation.readout {
                 Readout::LeastSquares => Some(Retroactive::new(Substep::new(config.rotation.substeps)?)),
@@ -311,16 +314,15 @@ impl<const D: usize> VehicleEstimator<D> {
     }
 
     /// Whether to learn from now on, as [`Estimator::set_learning`](crate::Estimator::set_learning): on the ground
-    /// [`Learning::Contact`]. What was measured before learning is on again, where measurements are late, is not learned from.
+    /// [`Learning::Contact`]. What was measured before learning is on again, where measurements are late, is not learned from,
+    /// and moments of inertia not before the rates have recovered from contact, for 4/λ of the rotation's observer.
     pub fn set_learning(&mut self, learning: Learning) {
-        if learning != self.translation.learning() {
+        let before = self.translation.learning();
+        if learning != before {
             self.translation.set_learning(learning);
             self.rotation.set_learning(learning);
             self.begin_identification();
-            if learning == Learning::On {
-                let late = self.late();
-                self.replaced.iter_mut().zip(late).for_each(|(replaced, late)| replaced.await_now(late));
-            }
+            self.await_learning(before, learning);
         }
     }
 

@@ -1,8 +1,9 @@
 //! What is not to be learned from: forces and torques that were rejected, and replaced by the one before. One is a fault in the bits, and passes; where they
 //! go on nobody knows what acts, and what is learned from it would be wrong and look right. And where measurements are late, those of before
-//! the learning began, or of before a change of load that was told.
+//! the learning began, or of before a change of load that was told; nor after contact before the rates have recovered.
 
 use super::estimator::VehicleEstimator;
+use crate::estimator::Learning;
 use crate::snapshot::stored;
 
 /// The inputs of one group.
@@ -56,6 +57,20 @@ impl<const D: usize> VehicleEstimator<D> {
     pub(super) fn late(&self) -> [usize; 2] {
         let late = self.wrenches.periods();
         [late + self.forces.periods(), late]
+    }
+
+    /// Learning was told `now`, which it was not `before`: what is late is of before. And the rates lag behind in contact, when they are
+    /// predicted to stay; the gyroscopic moment learned with them would be another.
+    pub(super) fn await_learning(&mut self, before: Learning, now: Learning) {
+        let [position, attitude] = self.late();
+        let recovery = if before == Learning::Contact { self.recovery as usize } else { 0 };
+        let [force, torque] = &mut self.replaced;
+        if now == Learning::On {
+            force.await_now(position);
+        }
+        if now != Learning::Contact {
+            torque.await_now(attitude + recovery);
+        }
     }
 
     /// Before a measurement instant of the translation: nothing is learned from forces that were replaced. What is known stays.

@@ -82,7 +82,10 @@ impl<const D: usize> Whole for VehicleEstimator<D> {
             && self.rotation.is_sound()
             && self.angles.is_sound()
             && possible(&self.last)
-            && self.replaced.iter().all(|replaced| replaced.is_sound(self.wrenches.periods() + self.forces.periods()))
+            && self
+                .replaced
+                .iter()
+                .all(|replaced| replaced.is_sound(self.late().iter().sum::<usize>() + self.recovery as usize))
             && self.actual.iter().all(possible)
             && self.wrenches.iter().all(possible)
             && self.forces.iter().flatten().all(|moments| moments.j1.abs() <= most && moments.j2.abs() <= most)
