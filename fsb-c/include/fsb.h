@@ -192,7 +192,7 @@
 #define FSB_PARAMETER_HELD 9
 
 // sizeof(fsb_vehicle_t).
-#define FSB_VEHICLE_SIZE 10496
+#define FSB_VEHICLE_SIZE 10560
 
 // Alignment of fsb_vehicle_t.
 #define FSB_VEHICLE_ALIGNMENT 8
@@ -233,7 +233,8 @@
 // The origin of the positions has jumped: they were followed, and velocity and mass have not noticed.
 #define FSB_EVENT_POSITION_JUMPED 8
 
-// A position came between two measurement instants, and was not taken.
+// A position came between two measurement instants, and was not taken, but for the last one of jump_after in succession: the
+// instants begin anew with it.
 #define FSB_EVENT_POSITION_OUT_OF_STEP 16
 
 // A force or a torque was not finite or beyond its limit; the one before was taken in its place.
@@ -653,7 +654,7 @@ typedef struct fsb_measured_t {
 // attitudes and from what its actuators did. Storage of the caller, static or a member: too large for most stacks.
 typedef struct fsb_vehicle_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[1312];
+  uint64_t opaque[1320];
 } fsb_vehicle_t;
 
 // Force and torque on the body about its centre of mass, along the body's axes.
@@ -1084,9 +1085,10 @@ fsb_status_t fsb_vehicle_update(struct fsb_vehicle_t *vehicle,
                                 const struct fsb_wrench_t *applied,
                                 uint32_t *events);
 
-// The control loop has been late by so many control periods, in which the actuators did what they were told last: as many
-// updates with nothing measured, at most those of twice `guard.bridge`. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
-// FSB_NOT_INITIALISED.
+// The control loop has been late by so many control periods, before the fsb_vehicle_update that ends the last of them: as many
+// updates with nothing measured and with the wrench of the last one, at most those of twice `guard.bridge`. That is the wrench of the
+// period before: where the actuators have been told another one since, as many updates with that one and with nothing measured are
+// right, and this is only nearly so. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED.
 fsb_status_t fsb_vehicle_missed(struct fsb_vehicle_t *vehicle,
                                 uint32_t periods);
 

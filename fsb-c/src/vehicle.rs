@@ -30,7 +30,7 @@ use crate::status::{FSB_MISALIGNED, FSB_UNKNOWN_VALUE, fsb_status_t};
 use crate::values::fsb_diagnostics_t;
 
 /// sizeof(fsb_vehicle_t).
-pub const FSB_VEHICLE_SIZE: usize = 10496;
+pub const FSB_VEHICLE_SIZE: usize = 10560;
 /// Alignment of fsb_vehicle_t.
 pub const FSB_VEHICLE_ALIGNMENT: usize = 8;
 /// The largest latency that can be configured [control periods]: how many of them an fsb_vehicle_t has room for.
@@ -46,7 +46,7 @@ pub const FSB_GROUP_ROTATION: u32 = 1;
 #[repr(C)]
 pub struct fsb_vehicle_t {
     /// Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-    opaque: [u64; 1312],
+    opaque: [u64; 1320],
 }
 
 /// What is kept in the storage.
@@ -177,9 +177,10 @@ pub unsafe extern "C" fn fsb_vehicle_update(
     status
 }
 
-/// The control loop has been late by so many control periods, in which the actuators did what they were told last: as many
-/// updates with nothing measured, at most those of twice `guard.bridge`. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
-/// FSB_NOT_INITIALISED.
+/// The control loop has been late by so many control periods, before the fsb_vehicle_update that ends the last of them: as many
+/// updates with nothing measured and with the wrench of the last one, at most those of twice `guard.bridge`. That is the wrench of the
+/// period before: where the actuators have been told another one since, as many updates with that one and with nothing measured are
+/// right, and this is only nearly so. Errors: FSB_NULL_POINTER, FSB_MISALIGNED, FSB_NOT_INITIALISED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_vehicle_missed(vehicle: *mut fsb_vehicle_t, periods: u32) -> fsb_status_t {
     change(vehicle, |Vehicle { estimator, .. }| {

@@ -3,7 +3,7 @@
 use fsb_core::estimator::{Learning, StateStatus};
 use fsb_core::guard::{GuardConfig, Guarded};
 use fsb_core::readout::{ParameterRule, ParameterStatus};
-use fsb_core::{Estimator, EstimatorConfig};
+use fsb_core::{Estimator, EstimatorConfig, Tuning};
 use fsb_sim_host::plant::HeldInputAxis;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -236,4 +236,25 @@ fn missed_periods_are_periods_without_measurement() {
     assert_eq!(told.rejections(), shown.rejections());
     assert_eq!(told.rejections().missing, 150 + 30);
     assert!((k(&told).unwrap() * MASS - 1.0).abs() < 2e-3);
+}
+
+/// The longest bridge there can be, of the longest intervals there can be, is more control periods than are counted.
+#[test]
+fn missed_periods_of_the_longest_bridge() {
+    let substeps = 65_535;
+    let interval = 1e-5 * f64::from(substeps);
+    let slow = Tuning::from_lambda(1.0);
+    let config = EstimatorConfig {
+        substeps,
+        identifier: slow,
+        observer: slow,
+        nominal: [Some(1.0)],
+        ..EstimatorConfig::<1, 1>::new(1e-5)
+    };
+    let guard = GuardConfig { bridge: 65_534.0 * interval, ..GuardConfig::default() };
+    let mut estimator = Guarded::new(&config, &guard).unwrap();
+    estimator.measure(&[Some(0.0)]).unwrap();
+    estimator.apply(&[0.0]);
+    estimator.missed(3 * substeps);
+    assert_eq!(estimator.rejections().missing, 3);
 }

@@ -26,7 +26,8 @@ pub const FSB_EVENT_ATTITUDE_LOST: u32 = 2;
 pub const FSB_EVENT_POSITION_REJECTED: u32 = 4;
 /// The origin of the positions has jumped: they were followed, and velocity and mass have not noticed.
 pub const FSB_EVENT_POSITION_JUMPED: u32 = 8;
-/// A position came between two measurement instants, and was not taken.
+/// A position came between two measurement instants, and was not taken, but for the last one of jump_after in succession: the
+/// instants begin anew with it.
 pub const FSB_EVENT_POSITION_OUT_OF_STEP: u32 = 16;
 /// A force or a torque was not finite or beyond its limit; the one before was taken in its place.
 pub const FSB_EVENT_WRENCH_REJECTED: u32 = 32;

@@ -46,6 +46,21 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         })
     }
 
+    /// Velocities as of [`states`](Self::states), as soon as two measurements have told them, whether they may be used or not.
+    pub(crate) fn velocities(&self) -> Option<[f32; N]> {
+        let Frame { common, progress, axes } = &self.frame;
+        let count = progress.observer.count;
+        if !axes.iter().all(|axis| axis.measured && count > u32::from(axis.gap)) {
+            return None;
+        }
+        let t = progress.substep as f32 * common.substep_share;
+        Some(axes.each_ref().map(|axis| {
+            let (w, model) = (axis.observer.t_velocity(), &axis.model);
+            let ahead = if progress.substep == 0 { 0.0 } else { model.k_t2 * axis.moments.j1 + model.c_t2 * t };
+            (w + ahead) * common.observer.per_period
+        }))
+    }
+
     /// The parameters that the states are predicted with: identified, else held, else nominal.
     pub fn prediction_parameters(&self) -> [Option<f32>; P] {
         self.parameters.each_ref().map(|p| p.valid().map(|k| k.value).or(p.nominal))

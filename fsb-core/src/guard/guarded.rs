@@ -172,7 +172,7 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
 
     /// Control periods without a measurement after which nothing is known any more.
     pub(crate) fn longest(&self) -> u32 {
-        2 * u32::from(self.design.bridge) * self.estimator.substeps()
+        (2 * u32::from(self.design.bridge)).saturating_mul(self.estimator.substeps())
     }
 
     /// As [`Estimator::states_after`], but for axes that are stale.

@@ -5,11 +5,12 @@ use super::change::Detector;
 use super::config::{GroupConfig, VehicleConfig};
 use super::delay::Delay;
 use super::design;
-use super::gyroscopic::Gyroscopic;
+use super::gyroscopic::{self, Gyroscopic};
 use super::measured::{Attitude, Measured, Wrench};
 use super::output::{Events, VehicleCounters};
+use super::replaced::Replaced;
 use super::retroactive::Retroactive;
-use super::triple::{all, difference, each, positions, rates, within};
+use super::triple::{difference, each, positions, rates, within};
 use crate::attitude::{AttitudeError, BodyAngles};
 use crate::error::ConfigError;
 use crate::estimator::Learning;
@@ -31,7 +32,8 @@ use crate::readout::{ParameterStatus, Readout};
 /// settled at what they are told in the first period.
 ///
 /// Non-finite policy: what is not finite, beyond its limit or cannot be true ([`crate::guard`]) is rejected, counted and told in
-/// [`Events`]; a measurement is then missing, a force or torque is replaced by the one before. No allocation, no panic, no transcendental. Cost of an update: two
+/// [`Events`]; a measurement is then missing, a force or torque is replaced by the one before. From three in
+/// succession on nothing is learned until they have acted: what is known stays. No allocation, no panic, no transcendental. Cost of an update: two
 /// estimators of three axes, and about 350 operations beside them (50 more with a lag, 260 with a rule for changes), of them 90
 /// for the attitude, 45 for turning the force and 200 for the gyroscopic moment; it does not depend on the latency.
 #[derive(Clone, Debug)]
@@ -58,9 +60,16 @@ pub struct VehicleEstimator<const D: usize> {
     /// A body angle of larger magnitude is moved back by that (rad). What comes of it is exact, as it is within twice that.
     pub(super) far: f32,
     pub(super) last: Wrench,
+    /// Forces and torques that were rejected.
+    pub(super) replaced: [Replaced; 2],
     /// Attitudes in succession that were too far away to be followed, and how many make a start anew.
     pub(super) too_far: u32,
     pub(super) enough: u32,
+    /// Attitudes and positions in succession that came between two measurement instants, none at one, and how many positions make a start anew.
+    pub(super) early: [u32; 2],
+    pub(super) enough_positions: u32,
+    /// Control periods in which the rates recover from what was predicted in contact: 4/λ.
+    pub(super) recovery: u32,
     /// Where the sums are those of least squares.
     pub(super) retroactive: Option<Retroactive>,
     pub(super) translation_change: Option<Detector>,
@@ -99,8 +108,12 @@ impl<const D: usize> VehicleEstimator<D> {
             torque_limit: config.rotation.input_limit as f32,
             far: libm::fmin(64.0, 0.5 * config.rotation.measurement_limit) as f32,
             last: Wrench::default(),
+            replaced: Default::default(),
             too_far: 0,
             enough: config.rotation.guard.jump_after,
+            early: [0; 2],
+            recovery: libm::fmin(4.0 / (config.rotation.observer.lambda * config.period), 1e9) as u32,
+            enough_positions: config.translation.guard.jump_after,
             retroactive: match config.rotation.readout {
                 Readout::LeastSquares => Some(Retroactive::new(Substep::new(config.rotation.substeps)?)),
                 Readout::AbsoluteRatio => None,
@@ -154,6 +167,9 @@ impl<const D: usize> VehicleEstimator<D> {
             if let Some(retroactive) = &mut self.retroactive {
                 retroactive.hold(&products, &differences);
             }
+        } else if let (Some(rates), Some(retroactive)) = (self.rotation.velocities(), &mut self.retroactive) {
+            // Nothing to predict with yet: it comes in later, all of it.
+            retroactive.hold(&gyroscopic::products(&rates), &[0.0; 3]);
         }
         self.rotation.apply_moments(&torque);
         course
@@ -185,7 +201,12 @@ impl<const D: usize> VehicleEstimator<D> {
             Some(Err(_)) => events.attitude_rejected = true,
             None => {}
         }
+        if angles.is_some() && self.attitude_is_early() {
+            self.rotation.restart();
+            self.begin_rotation();
+        }
         if self.rotation.is_due() {
+            self.pass_over_torques();
             // In step, as it is due.
             let verdicts = self.rotation.measure(&each(angles)).unwrap_or_default();
             if angles.is_some() && !verdicts.iter().all(|verdict| verdict.is_used()) {
@@ -222,7 +243,7 @@ impl<const D: usize> VehicleEstimator<D> {
         let view = self.rotation.innovation_view();
         if view.measured
             && self.rotation.parameter_status() != [ParameterStatus::Valid; 3]
-            && let Some(rates) = rates(&self.rotation.states())
+            && let Some(rates) = self.rotation.velocities()
         {
             retroactive.correct(&view, &rates, self.rotation_period);
         }
@@ -230,10 +251,14 @@ impl<const D: usize> VehicleEstimator<D> {
         if !retroactive.is_behind(self.rotation.identifier_blocks()) || self.rotation.learning() != Learning::On {
             return;
         }
-        let Some(guesses) = all(self.rotation.prediction_parameters()) else { return };
+        let guesses = self.rotation.prediction_parameters();
+        // A value held may be the one of before a change.
         let mut k = self.rotation.parameters();
-        for (k, rough) in k.iter_mut().zip(self.rotation.rough_parameters()) {
-            *k = k.or(rough);
+        let newest = self.rotation.rough_parameters().into_iter().zip(self.rotation.parameter_status());
+        for (k, (rough, status)) in k.iter_mut().zip(newest) {
+            if status != ParameterStatus::Valid {
+                *k = rough;
+            }
         }
         if let Some(shifts) = retroactive.step(&self.rotation.identifier_view(), &k, &guesses) {
             for (axis, shift) in shifts.iter().enumerate() {
@@ -246,7 +271,14 @@ impl<const D: usize> VehicleEstimator<D> {
         // Where one coordinate is nonsense the others are not to be trusted.
         let sound = position.filter(|position| within(position, self.position_limit));
         events.position_rejected = position.is_some() && sound.is_none();
+        if sound.is_some() && self.position_is_early(events) {
+            self.translation.restart();
+            if let Some(detector) = &mut self.translation_change {
+                detector.restart();
+            }
+        }
         if self.translation.is_due() {
+            self.pass_over_forces();
             // In step, as it is due.
             let verdicts = self.translation.measure(&each(sound)).unwrap_or_default();
             if sound.is_some() {
@@ -260,38 +292,45 @@ impl<const D: usize> VehicleEstimator<D> {
                 detector.restart();
             }
             events.mass_changed = self.mass_has_changed();
-        } else {
-            events.position_out_of_step = sound.is_some();
         }
     }
 
     /// Force and torque, each within its limit or else the one before.
     fn checked(&mut self, applied: &Wrench, events: &mut Events) -> Wrench {
-        if within(&applied.force, self.force_limit) {
+        let sound = [within(&applied.force, self.force_limit), within(&applied.torque, self.torque_limit)];
+        let [force, torque] = sound;
+        if force {
             self.last.force = applied.force;
-        } else {
-            events.wrench_rejected = true;
         }
-        if within(&applied.torque, self.torque_limit) {
+        if torque {
             self.last.torque = applied.torque;
-        } else {
-            events.wrench_rejected = true;
+        }
+        events.wrench_rejected = sound != [true; 2];
+        let late = self.late();
+        for ((replaced, sound), late) in self.replaced.iter_mut().zip(sound).zip(late) {
+            replaced.count(!sound, late);
         }
         self.last
     }
 
     /// Whether to learn from now on, as [`Estimator::set_learning`](crate::Estimator::set_learning): on the ground
-    /// [`Learning::Contact`].
+    /// [`Learning::Contact`]. What was measured before learning is on again, where measurements are late, is not learned from,
+    /// and moments of inertia not before the rates have recovered from contact, for 4/λ of the rotation's observer.
     pub fn set_learning(&mut self, learning: Learning) {
-        if learning != self.translation.learning() {
+        let before = self.translation.learning();
+        if learning != before {
             self.translation.set_learning(learning);
             self.rotation.set_learning(learning);
             self.begin_identification();
+            self.await_learning(before, learning);
         }
     }
 
-    /// The control loop has been late by so many control periods, in which the actuators did what they were told last. As
-    /// many updates with nothing measured, at most those that end in a start anew.
+    /// The control loop has been late by so many control periods, before the [`update`](Self::update) that ends the last of them. As many
+    /// updates with nothing measured and with the wrench of the last one, at most those that end in a start anew.
+    ///
+    /// That is the wrench of the period before the one now late. Where the actuators have been told another one since, and it is at hand, as many
+    /// updates with that one and nothing measured are right, and this is only nearly so.
     pub fn missed(&mut self, periods: u32) {
         let last = self.last;
         let most = self.translation.longest().max(self.rotation.longest());
@@ -312,8 +351,8 @@ impl<const D: usize> VehicleEstimator<D> {
         self.wrenches.clear();
         self.forces.clear();
         self.actual = None;
-        self.last = Wrench::default();
-        self.too_far = 0;
+        (self.last, self.replaced) = Default::default();
+        (self.too_far, self.early) = (0, [0; 2]);
         self.attitude_measured = false;
         self.begun = false;
     }

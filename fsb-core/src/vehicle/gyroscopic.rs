@@ -9,16 +9,22 @@ pub(super) fn differences([ix, iy, iz]: &[f32; 3]) -> [f32; 3] {
 }
 
 /// γ of each axis, and its variance. `k` is 1/I where it is identified, else `guesses`: first guesses of moments of inertia are
-/// taken to be off by half of themselves, two of them together.
-pub(super) fn differences_known(k: &[Option<Parameter>; 3], guesses: &[f32; 3]) -> ([f32; 3], [f32; 3]) {
-    let (mut inertias, mut variances) = ([0.0; 3], [0.0; 3]);
-    for (((inertia, variance), k), guess) in inertias.iter_mut().zip(&mut variances).zip(k).zip(guesses) {
-        let k = k.unwrap_or(Parameter { value: *guess, variance: 0.25 * guess * guess });
-        *inertia = 1.0 / k.value;
-        let square = *inertia * *inertia;
-        *variance = (k.variance * square) * square;
+/// taken to be off by half of themselves, two of them together. Where there is no guess either γ is taken for zero: of any body
+/// |I_j - I_k| ≤ I_i, which is what it may be off by.
+pub(super) fn differences_known(k: &[Option<Parameter>; 3], guesses: &[Option<f32>; 3]) -> ([f32; 3], [f32; 3]) {
+    let (mut inertias, mut variances, mut unknown) = ([0.0; 3], [0.0; 3], [false; 3]);
+    let of_axes = inertias.iter_mut().zip(&mut variances).zip(&mut unknown);
+    for ((((inertia, variance), unknown), k), guess) in of_axes.zip(k).zip(guesses) {
+        let guessed = guess.map(|guess| Parameter { value: guess, variance: 0.25 * guess * guess });
+        if let Some(k) = k.or(guessed) {
+            *inertia = 1.0 / k.value;
+            let square = *inertia * *inertia;
+            *variance = (k.variance * square) * square;
+        } else {
+            *unknown = true;
+        }
     }
-    let gammas = differences(&inertias);
+    let mut gammas = differences(&inertias);
     let [x, y, z] = variances;
     let [p, q, r] = k.map(|k| k.is_none());
     let mut of_gammas = [y + z, z + x, x + y];
@@ -27,11 +33,18 @@ pub(super) fn differences_known(k: &[Option<Parameter>; 3], guesses: &[f32; 3]) 
             *variance = 0.25 * gamma * gamma;
         }
     }
+    let [p, q, r] = unknown;
+    let each = gammas.iter_mut().zip(&mut of_gammas).zip(&inertias);
+    for (((gamma, variance), inertia), any) in each.zip([q || r, r || p, p || q]) {
+        if any {
+            (*gamma, *variance) = (0.0, inertia * inertia);
+        }
+    }
     (gammas, of_gammas)
 }
 
 /// ω_j ω_k of each axis.
-fn products([p, q, r]: &[f32; 3]) -> [f32; 3] {
+pub(super) fn products([p, q, r]: &[f32; 3]) -> [f32; 3] {
     [q * r, r * p, p * q]
 }
 

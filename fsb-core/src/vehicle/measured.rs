@@ -35,7 +35,12 @@ impl Attitude {
     }
 }
 
-/// What was measured, and has arrived by now. A group's measurements come every `substeps` updates.
+/// What was measured, and has arrived by now.
+///
+/// A group's measurements come every `substeps` updates from the first one on. A position in between is not taken, which is told
+/// ([`Events::position_out_of_step`](super::Events::position_out_of_step)); an attitude in between turns the force and is not taken otherwise. Where as many in succession as make
+/// a jump ([`GuardConfig::jump_after`](crate::guard::GuardConfig::jump_after)) came in between and none when one was due, the group starts anew in step with them, its parameters held: a
+/// control period has been lost, or the sensor's clock is another one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Measured {

@@ -40,7 +40,9 @@
 //! | `retroactive` | the same with moments of inertia that were not known at the time |
 //! | `change` | whether a parameter has changed |
 //! | `reinitialise` | parameters identified anew |
+//! | `replaced` | forces and torques that were rejected |
 //! | `delay` | inputs waiting for a measurement that comes late |
+//! | `step` | measurements between two measurement instants |
 //! | `stored` | what a snapshot holds |
 //! | `triple` | three numbers, one for each axis of a group |
 //! | `unwind` | body angles from a later origin |
@@ -56,9 +58,11 @@ mod measured;
 mod output;
 mod readings;
 mod reinitialise;
+mod replaced;
 mod residual;
 mod retroactive;
 mod state;
+mod step;
 mod stored;
 #[cfg(test)]
 mod tests;

@@ -70,7 +70,8 @@ pub struct Events {
     pub translation_pushed: bool,
     /// The same for the rates and the moments of inertia.
     pub rotation_pushed: bool,
-    /// A position came between two measurement instants, and was not taken.
+    /// A position came between two measurement instants, and was not taken, but for the last one of `jump_after` in succession: the
+    /// instants begin anew with it.
     pub position_out_of_step: bool,
     /// A force or a torque was not finite or beyond its limit; the one before was taken in its place.
     pub wrench_rejected: bool,

@@ -7,8 +7,19 @@ use crate::readout::ParameterStatus;
 
 impl<const D: usize> VehicleEstimator<D> {
     /// Identifies the parameters of a group anew, as after a change of load: what is known goes on being handed out and used
-    /// until the new value is valid.
+    /// until the new value is valid. What was measured before now, where measurements are late, is not learned from.
     pub fn reinitialise(&mut self, group: Group) {
+        self.identify_anew(group);
+        let [position, attitude] = self.late();
+        let [force, torque] = &mut self.replaced;
+        match group {
+            Group::Translation => force.await_now(position),
+            Group::Rotation => torque.await_now(attitude),
+        }
+    }
+
+    /// The same from the next measurement on.
+    fn identify_anew(&mut self, group: Group) {
         match group {
             Group::Translation => {
                 self.translation.reinitialise_identifier();
@@ -59,7 +70,7 @@ impl<const D: usize> VehicleEstimator<D> {
             changed |= detector.observe_residuals(&self.translation.identifier_view(), &known);
         }
         if changed {
-            self.reinitialise(Group::Translation);
+            self.identify_anew(Group::Translation);
         }
         changed
     }
@@ -73,7 +84,7 @@ impl<const D: usize> VehicleEstimator<D> {
             changed |= detector.observe_residuals(&self.rotation.identifier_view(), &known);
         }
         if changed {
-            self.reinitialise(Group::Rotation);
+            self.identify_anew(Group::Rotation);
             self.rotation.suspect_disturbance();
         }
         changed

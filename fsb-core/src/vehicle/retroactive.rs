@@ -167,7 +167,7 @@ impl Retroactive {
         &mut self,
         view: &IdentifierView<3>,
         k: &[Option<Parameter>; 3],
-        guesses: &[f32; 3],
+        guesses: &[Option<f32>; 3],
     ) -> Option<[InputShift; 3]> {
         let mut shifts = [InputShift::default(); 3];
         if view.blocks < self.blocks {

@@ -30,7 +30,9 @@ impl<const D: usize> Stored for VehicleEstimator<D> {
         self.forces.pass(archive);
         self.attitude_measured.pass(archive);
         self.last.pass(archive);
+        self.replaced.pass(archive);
         self.too_far.pass(archive);
+        self.early.pass(archive);
         // What is there is a matter of the design.
         if let Some(retroactive) = &mut self.retroactive {
             retroactive.pass(archive);
@@ -80,10 +82,15 @@ impl<const D: usize> Whole for VehicleEstimator<D> {
             && self.rotation.is_sound()
             && self.angles.is_sound()
             && possible(&self.last)
+            && self
+                .replaced
+                .iter()
+                .all(|replaced| replaced.is_sound(self.late().iter().sum::<usize>() + self.recovery as usize))
             && self.actual.iter().all(possible)
             && self.wrenches.iter().all(possible)
             && self.forces.iter().flatten().all(|moments| moments.j1.abs() <= most && moments.j2.abs() <= most)
             && self.too_far < self.enough
+            && self.early.iter().zip([self.enough, self.enough_positions]).all(|(early, enough)| *early < enough)
             && self.retroactive.iter().all(|retroactive| retroactive.is_sound())
             && [&self.translation_change, &self.rotation_change]
                 .into_iter()
