@@ -117,7 +117,7 @@ fn a_quick_observer_is_not_thrown_off_by_gaps() {
             observer: Tuning { lambda, q: 0.5 * lambda },
             ..EstimatorConfig::new(period)
         };
-        let mut worst = 0.0_f64;
+        let (mut worst, mut count) = (0.0_f64, 0);
         for seed in 0..60 {
             let mut estimator = Estimator::new(&config).expect("valid");
             estimator.set_learning(Learning::Off);
@@ -127,10 +127,13 @@ fn a_quick_observer_is_not_thrown_off_by_gaps() {
                 let noise: f64 = random.sample(StandardNormal);
                 let came = n == 0 || !random.random_bool(missing);
                 estimator.measure(&[came.then_some((axis.position + SIGMA * noise) as f32)]).expect("in step");
-                if n >= 160 {
-                    let (state, sd) =
-                        (estimator.states()[0].expect("nominal"), estimator.state_sd()[0].expect("known"));
+                // Of a few too few have come by then.
+                if n >= 160
+                    && let Some(sd) = estimator.state_sd()[0]
+                {
+                    let state = estimator.states()[0].expect("nominal");
                     worst = worst.max(((f64::from(state.velocity) - axis.velocity) / f64::from(sd.velocity)).abs());
+                    count += 1;
                 }
                 let force = (2.0 * period * f64::from(n)).sin() as f32;
                 estimator.apply(&[force]);
@@ -138,7 +141,7 @@ fn a_quick_observer_is_not_thrown_off_by_gaps() {
             }
         }
         println!("λT {}, {missing} missing, seeds 0 to 59: velocity within {worst:.1} sd", lambda * period);
-        assert!(worst < 10.0, "λ {lambda}, {missing} missing: {worst}");
+        assert!(count > 50 * 140 && worst < 10.0, "λ {lambda}, {missing} missing: {worst}");
     }
 }
 

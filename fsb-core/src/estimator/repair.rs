@@ -29,11 +29,14 @@ impl Parts<'_> {
         let (limit, longest) = (common.position_limit, longest_gap(common.late_settle));
         let gone = |axis: &Axis| !axis.measured || axis.present && u32::from(axis.gap) >= longest;
         let back = |axis: &Axis, y: f32| gone(axis) && y.abs() <= limit;
+        // What was missed among the first is in the state for as long as the observer remembers the start.
+        let mut back_after = 0;
         let reopen = progress.identifier.blocks > 0 && axes.iter().zip(y.iter()).any(|(axis, y)| back(axis, *y));
         for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {
             let parameter = self.parameters.get_mut(parameter_of(index, self.parameters));
             if y.abs() <= common.position_limit {
                 if axis.measured && axis.gap > 0 {
+                    back_after = axis.gap.max(back_after);
                     axis.come_back(*y, m1, t_l2, common);
                 }
                 axis.gap = 0;
@@ -85,6 +88,9 @@ impl Parts<'_> {
                 *y = 0.0;
             }
             progress.all_measured = false;
+        }
+        if progress.came(back_after) < common.late_settle {
+            progress.early = progress.early.saturating_add(u32::from(back_after));
         }
         if reopen {
             self.begin_window(Known::Kept);

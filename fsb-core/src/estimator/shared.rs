@@ -22,6 +22,8 @@ pub(super) struct Progress {
     pub steady: bool,
     pub learning: Learning,
     pub counters: Counters,
+    /// Measurements that had been missed when others came, among the first.
+    pub early: u32,
 }
 
 impl Progress {
@@ -35,11 +37,17 @@ impl Progress {
             steady: false,
             learning: Learning::On,
             counters: Counters::default(),
+            early: 0,
         }
     }
 }
 
 impl Progress {
+    /// Measurements that came, where there was a `gap` since the last of them, as far as it matters.
+    pub const fn came(&self, gap: u16) -> u32 {
+        self.observer.count.saturating_sub(self.early).saturating_sub(gap as u32)
+    }
+
     /// At the start again, still counting, and learning as it was told.
     pub fn anew(&self, common: &Common) -> Self {
         Self { counters: self.counters, learning: self.learning, ..Self::start(common) }
