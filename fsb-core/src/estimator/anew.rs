@@ -62,6 +62,6 @@ impl Axis {
         }
         self.noise.forget_gaps();
         (self.cascade, self.cross, self.block) = Default::default();
-        (self.begun, self.present, self.missed) = (false, false, 0);
+        (self.begun, self.present, self.owes, self.missed) = (false, false, false, 0);
     }
 }

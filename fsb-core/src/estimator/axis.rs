@@ -65,6 +65,10 @@ pub(super) struct Axis {
     pub(super) begun: bool,
     /// Takes part in the identification: it was measured when its first block began.
     pub present: bool,
+    /// A coarse step fell to a block in which nothing came.
+    pub(super) owes: bool,
+    /// The innovation after the last gap came together over a long time, and does not go on.
+    pub(super) leapt: bool,
     pub own: AxisDesign,
 }
 

@@ -31,13 +31,24 @@ impl Parts<'_> {
         let back = |axis: &Axis, y: f32| gone(axis) && y.abs() <= limit;
         // What was missed among the first is in the state for as long as the observer remembers the start.
         let mut back_after = 0;
+        let share = common.covariance.share(progress.identifier.blocks);
+        // While there is something of the start in the state, what is predicted is off by the same for as long as that lasts: all the time so
+        // far, up to 1/λ.
+        let starting = progress.came(0) < common.late_settle;
+        let lasting = if starting { progress.observer.count.min(longest) as f32 } else { 0.0 };
         let reopen = progress.identifier.blocks > 0 && axes.iter().zip(y.iter()).any(|(axis, y)| back(axis, *y));
         for (index, (axis, y)) in axes.iter_mut().zip(y.iter_mut()).enumerate() {
             let parameter = self.parameters.get_mut(parameter_of(index, self.parameters));
             if y.abs() <= common.position_limit {
                 if axis.measured && axis.gap > 0 {
                     back_after = axis.gap.max(back_after);
-                    axis.come_back(*y, m1, t_l2, common);
+                    let gap = f32::from(axis.gap);
+                    axis.leapt = gap * gap * progress.observer.gains.t_l2() > 1.0;
+                    if axis.owes && common.block_length > 1 {
+                        // Begins with it: the block is looked at as one with a gap.
+                        axis.missed = axis.missed.max(1);
+                    }
+                    axis.come_back(*y, m1, t_l2, common, share, lasting);
                 }
                 axis.gap = 0;
                 if !axis.measured {
@@ -58,7 +69,7 @@ impl Parts<'_> {
                 continue;
             }
             axis.missed = axis.missed.saturating_add(1);
-            axis.go_missing(common);
+            axis.go_missing(common, share);
             axis.gap = axis.gap.saturating_add(1);
             if axis.measured && u32::from(axis.gap) == progress.observer.count {
                 axis.settled_at = common.settled_after(progress.observer.count);
@@ -69,7 +80,7 @@ impl Parts<'_> {
             // would say that the input does nothing, and k̂ would be taken in by them.
             let gap = f32::from(axis.gap);
             let short = gap * gap * progress.observer.gains.t_l2() <= 1.0;
-            if short && matches!(axis.source, Source::Nothing | Source::Provisional) {
+            if short && !axis.leapt && matches!(axis.source, Source::Nothing | Source::Provisional) {
                 predicted += axis.observer.innovation();
             }
             if axis.measured && predicted.abs() <= common.position_limit {
@@ -101,21 +112,21 @@ impl Parts<'_> {
 
 impl Axis {
     /// Before the step with what stands in for a measurement. At first that is off by what the last one was off by.
-    fn go_missing(&mut self, common: &Common) {
-        let (share, per_length) = (common.covariance.share(), common.block.per_length);
+    fn go_missing(&mut self, common: &Common, share: f32) {
+        let per_length = common.block.per_length;
         self.noise.miss(share * per_length);
         if self.gap == 0 {
-            self.noise.come_back(1.0, 2.0 * self.observer.innovation(), share * (per_length * per_length));
+            self.noise.come_back(1.0, 1.0, 2.0 * self.observer.innovation(), share * (per_length * per_length));
         }
     }
 
     /// Before the step with `y`, the first measurement after a gap.
-    fn come_back(&mut self, y: f32, m1: f32, t_l2: f32, common: &Common) {
+    fn come_back(&mut self, y: f32, m1: f32, t_l2: f32, common: &Common, share: f32, lasting: f32) {
         let gap = f32::from(self.gap);
         let off = y - self.observer.predict(self.moments, &self.model, m1);
         // A mean over a block has so much less of it.
         let per_length = common.block.per_length;
-        self.noise.come_back(gap, off, common.covariance.share() * (per_length * per_length));
+        self.noise.come_back(gap, gap.max(lasting), off, share * (per_length * per_length));
         self.observer.come_back(gap, off, t_l2);
     }
 }

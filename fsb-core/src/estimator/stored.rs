@@ -29,6 +29,8 @@ stored!(Axis {
     measured,
     begun,
     present,
+    owes,
+    leapt,
 });
 
 impl Stored for Learning {
