@@ -2,7 +2,7 @@
 
 use core::mem;
 
-use super::axis::Axis;
+use super::axis::{Axis, Marks};
 use super::design::Common;
 use super::shared::IdentifierClock;
 use crate::identifier::{BlockMean, Coefficients, Stage};
@@ -56,10 +56,11 @@ impl Axis {
         common: &Common,
     ) {
         if u32::from(self.missed) < common.block_length && clock.blocks > 2 {
-            let coarse = mem::take(&mut self.owes) || coarse;
+            let coarse = coarse || self.marks.has(Marks::OWES);
+            self.marks.set(Marks::OWES, false);
             self.read_out_generally(z2, coarse, clock, parameter, common);
         } else {
-            self.owes |= coarse;
+            self.marks.set(Marks::OWES, coarse || self.marks.has(Marks::OWES));
         }
         self.missed = 0;
     }
@@ -80,7 +81,7 @@ impl Axis {
         if self.tells(common) && round.open {
             self.read_out(z2, coarse, clock, parameter, common);
         } else if coarse {
-            self.owes = true;
+            self.marks.set(Marks::OWES, true);
         }
     }
 
@@ -88,8 +89,8 @@ impl Axis {
     /// more than all before it, is in the variance as well.
     #[inline(never)]
     pub fn make_up(&mut self, clock: &IdentifierClock, parameter: &mut ParameterState, common: &Common) {
-        if self.owes && self.gap == 0 && self.present && clock.blocks > 2 {
-            self.owes = false;
+        if self.marks.has(Marks::OWES) && self.gap == 0 && self.present && clock.blocks > 2 {
+            self.marks.set(Marks::OWES, false);
             let z0 = self.cascade.z0();
             if Ratio::is_informative(z0) {
                 let z2 = self.cascade.z2() - self.own.drift * clock.unit.zu();

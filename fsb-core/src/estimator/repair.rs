@@ -1,7 +1,7 @@
 //! Measurements that did not come, or cannot be right.
 
 use super::anew::Known;
-use super::axis::{Axis, Clocks, Source};
+use super::axis::{Axis, Clocks, Marks, Source};
 use super::design::Common;
 use super::parts::{Frame, Parts, parameter_of};
 use crate::identifier::longest_gap;
@@ -43,8 +43,8 @@ impl Parts<'_> {
                 if axis.measured && axis.gap > 0 {
                     back_after = axis.gap.max(back_after);
                     let gap = f32::from(axis.gap);
-                    axis.leapt = gap * gap * progress.observer.gains.t_l2() > 1.0;
-                    if axis.owes && common.block_length > 1 {
+                    axis.marks.set(Marks::LEAPT, gap * gap * progress.observer.gains.t_l2() > 1.0);
+                    if axis.marks.has(Marks::OWES) && common.block_length > 1 {
                         // Begins with it: the block is looked at as one with a gap.
                         axis.missed = axis.missed.max(1);
                     }
@@ -80,7 +80,7 @@ impl Parts<'_> {
             // would say that the input does nothing, and k̂ would be taken in by them.
             let gap = f32::from(axis.gap);
             let short = gap * gap * progress.observer.gains.t_l2() <= 1.0;
-            if short && !axis.leapt && matches!(axis.source, Source::Nothing | Source::Provisional) {
+            if short && !axis.marks.has(Marks::LEAPT) && matches!(axis.source, Source::Nothing | Source::Provisional) {
                 predicted += axis.observer.innovation();
             }
             if axis.measured && predicted.abs() <= common.position_limit {
