@@ -58,10 +58,10 @@ impl Parts<'_> {
         }
         progress.started = true;
         progress.substep = 0;
-        let after_gap = !progress.all_measured;
-        if after_gap || !complete {
+        let mut back = false;
+        if !(progress.all_measured && complete) {
             self.count_missing(y);
-            self.repair_positions(y, m1, gains.t_l2());
+            back = self.repair_positions(y, m1, gains.t_l2());
         }
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.observer.gains = gains;
@@ -79,7 +79,7 @@ impl Parts<'_> {
             self.take_turns(position, next);
         } else if identifying {
             self.take_singles();
-            if after_gap {
+            if back {
                 self.make_up();
             }
         } else if progress.observer.count.checked_rem(common.schedule.gains_every) == Some(1) {

@@ -169,8 +169,8 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             };
             // Means over M samples have an M-th of the variance.
             let variance = axis.noise.measurement_variance() * self.frame.common.block_length as f32;
-            let forgotten =
-                self.frame.progress.early == 0 || self.frame.progress.came(axis.gap) >= self.frame.common.late_settle;
+            let clock = &self.frame.progress.observer;
+            let forgotten = clock.early == 0 || clock.came(axis.gap) >= self.frame.common.late_settle;
             (axis.noise.is_known() && axis.measured && forgotten).then(|| AxisState {
                 position: libm::sqrtf(variance * gain.position_after(axis.gap)),
                 velocity: libm::sqrtf(variance * gain.velocity(&self.frame.common.observer)),

@@ -22,8 +22,6 @@ pub(super) struct Progress {
     pub steady: bool,
     pub learning: Learning,
     pub counters: Counters,
-    /// Measurements that had been missed when others came, among the first.
-    pub early: u32,
 }
 
 impl Progress {
@@ -37,17 +35,11 @@ impl Progress {
             steady: false,
             learning: Learning::On,
             counters: Counters::default(),
-            early: 0,
         }
     }
 }
 
 impl Progress {
-    /// Measurements that came, where there was a `gap` since the last of them, as far as it matters.
-    pub const fn came(&self, gap: u16) -> u32 {
-        self.observer.count.saturating_sub(self.early).saturating_sub(gap as u32)
-    }
-
     /// At the start again, still counting, and learning as it was told.
     pub fn anew(&self, common: &Common) -> Self {
         Self { counters: self.counters, learning: self.learning, ..Self::start(common) }
@@ -65,13 +57,28 @@ pub(super) struct ObserverClock {
     until: u32,
     /// The gains change slowly: they are renewed, and the window moves, once in a while.
     pub striding: bool,
+    /// Measurements that had been missed when others came, among the first.
+    pub early: u16,
 }
 
 impl ObserverClock {
     /// Measurements in which the gains change too fast to be held.
     const HURRIED: u32 = 32;
 
-    pub const START: Self = Self { window: Window::START, gains: Gains::FIRST, count: 0, until: 0, striding: false };
+    pub const START: Self =
+        Self { window: Window::START, gains: Gains::FIRST, count: 0, until: 0, striding: false, early: 0 };
+
+    /// Measurements that came, where there was a `gap` since the last of them, as far as it matters.
+    pub fn came(&self, gap: u16) -> u32 {
+        self.count.saturating_sub(u32::from(self.early) + u32::from(gap))
+    }
+
+    /// Measurements were missed before the one that has come, after which the state has forgotten its start in `late` of them.
+    pub fn note_gap(&mut self, gap: u16, late: u32) {
+        if self.came(gap) < late {
+            self.early = self.early.saturating_add(gap);
+        }
+    }
 
     /// One more measurement instant. The origin moves on long before the count could run out.
     #[inline(always)]
@@ -182,7 +189,7 @@ impl IdentifierClock {
     }
 }
 
-stored!(ObserverClock { window, gains, count, until, striding });
+stored!(ObserverClock { window, gains, count, until, striding, early });
 stored!(IdentifierClock { window, at, unit, shape, position, began, blocks, stride, settled });
 
 impl ObserverClock {

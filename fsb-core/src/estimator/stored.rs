@@ -8,7 +8,7 @@ use super::shared::Progress;
 use crate::snapshot::{Archive, Fingerprint, Stored, Whole, snapshots, stored};
 
 stored!(Counters { missed, rejected_measurements, rejected_inputs });
-stored!(Progress { observer, identifier, substep, started, all_measured, steady, learning, counters, early });
+stored!(Progress { observer, identifier, substep, started, all_measured, steady, learning, counters });
 stored!(Marks { bits });
 stored!(Axis {
     observer,
