@@ -104,6 +104,7 @@ impl Parts<'_> {
 
 impl Axis {
     /// Before the step with what stands in for a measurement. At first that is off by what the last one was off by.
+    #[cold]
     #[inline(never)]
     fn go_missing(&mut self, progress: &Progress, common: &Common) {
         let share = common.covariance.share(progress.identifier.blocks);
@@ -115,6 +116,7 @@ impl Axis {
     }
 
     /// Before the step with `y`, the first measurement after a gap.
+    #[cold]
     #[inline(never)]
     fn come_back(&mut self, y: f32, m1: f32, t_l2: f32, progress: &Progress, common: &Common) {
         let gap = f32::from(self.gap);
