@@ -344,7 +344,8 @@ typedef struct fsb_state_t {
   fsb_state_status_t status;
 } fsb_state_t;
 
-// Standard deviations of a state that measurement noise causes; NaN until the noise is known.
+// Standard deviations of a state that measurement noise causes; NaN until the noise is known, and after gaps among the first
+// measurements until 8/lambda of them (of the observer) have come.
 typedef struct fsb_state_sd_t {
   // Of the position [m or rad].
   float position;
@@ -793,7 +794,8 @@ fsb_status_t fsb_axis_apply_ramp(struct fsb_axis_t *estimator, const float *from
 fsb_status_t fsb_axis_state(const struct fsb_axis_t *estimator,
                             struct fsb_state_t *state);
 
-// Hands out the standard deviations of the state that measurement noise causes; NaN until the noise is known.
+// Hands out the standard deviations of the state that measurement noise causes; NaN until the noise is known, and after gaps
+// among the first measurements until 8/lambda of them have come.
 // Errors as fsb_axis_state. Uses square roots: for logs, not for the tick.
 fsb_status_t fsb_axis_state_sd(const struct fsb_axis_t *estimator,
                                struct fsb_state_sd_t *sd);
@@ -877,7 +879,8 @@ fsb_status_t fsb_rotation_apply_ramp(struct fsb_rotation_t *estimator,
 fsb_status_t fsb_rotation_states(const struct fsb_rotation_t *estimator,
                                  struct fsb_state_t state[3]);
 
-// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known.
+// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known, and after gaps
+// among the first measurements until 8/lambda of them have come.
 // Errors as fsb_rotation_states. Uses square roots: for logs, not for the tick.
 fsb_status_t fsb_rotation_state_sd(const struct fsb_rotation_t *estimator,
                                    struct fsb_state_sd_t sd[3]);
@@ -1001,7 +1004,8 @@ fsb_status_t fsb_translation_apply_ramp(struct fsb_translation_t *estimator,
 fsb_status_t fsb_translation_states(const struct fsb_translation_t *estimator,
                                     struct fsb_state_t state[3]);
 
-// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known.
+// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known, and after gaps
+// among the first measurements until 8/lambda of them have come.
 // Errors as fsb_translation_states. Uses square roots: for logs, not for the tick.
 fsb_status_t fsb_translation_state_sd(const struct fsb_translation_t *estimator,
                                       struct fsb_state_sd_t sd[3]);

@@ -174,7 +174,8 @@ pub unsafe extern "C" fn fsb_axis_state(estimator: *const fsb_axis_t, state: *mu
     readings::states(estimator, state)
 }
 
-/// Hands out the standard deviations of the state that measurement noise causes; NaN until the noise is known.
+/// Hands out the standard deviations of the state that measurement noise causes; NaN until the noise is known, and after gaps
+/// among the first measurements until 8/lambda of them have come.
 /// Errors as fsb_axis_state. Uses square roots: for logs, not for the tick.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_axis_state_sd(estimator: *const fsb_axis_t, sd: *mut fsb_state_sd_t) -> fsb_status_t {

@@ -189,7 +189,8 @@ pub unsafe extern "C" fn fsb_translation_states(
     readings::states(estimator, state)
 }
 
-/// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known.
+/// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known, and after gaps
+/// among the first measurements until 8/lambda of them have come.
 /// Errors as fsb_translation_states. Uses square roots: for logs, not for the tick.
 /// cbindgen:ptrs-as-arrays=[[sd;3]]
 #[unsafe(no_mangle)]

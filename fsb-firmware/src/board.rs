@@ -54,7 +54,12 @@ impl Tick {
                 self.seen = ticks;
                 return overrun;
             }
-            cortex_m::asm::wfi();
+            // A tick between the look and the sleep would be slept through. With interrupts held off it ends the sleep all the same.
+            cortex_m::interrupt::free(|_| {
+                if TICKS.load(Ordering::Relaxed) == self.seen {
+                    cortex_m::asm::wfi();
+                }
+            });
         }
     }
 }

@@ -15,7 +15,8 @@ pub struct LoopConfig {
     pub rotation: EstimatorConfig<3, 3>,
     /// x, y, z, φ, θ, ψ.
     pub controllers: [TrackingConfig; 6],
-    /// World-frame force \[N\] and torque \[N m\] on an axis that has no state or no parameter yet.
+    /// World-frame force \[N\] and torque \[N m\] on an axis that has no state or no parameter yet, from the first tick on, whether anything was
+    /// measured or not. Of [`new`](Self::new) the weight: do not call [`tick`](crate::ControlLoop::tick) before the motors may turn.
     pub fallback: [f32; 6],
     /// The motors.
     pub allocation: Allocation,

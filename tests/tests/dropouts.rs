@@ -117,7 +117,7 @@ fn a_quick_observer_is_not_thrown_off_by_gaps() {
             observer: Tuning { lambda, q: 0.5 * lambda },
             ..EstimatorConfig::new(period)
         };
-        let mut worst = 0.0_f64;
+        let (mut worst, mut count) = (0.0_f64, 0);
         for seed in 0..60 {
             let mut estimator = Estimator::new(&config).expect("valid");
             estimator.set_learning(Learning::Off);
@@ -127,10 +127,13 @@ fn a_quick_observer_is_not_thrown_off_by_gaps() {
                 let noise: f64 = random.sample(StandardNormal);
                 let came = n == 0 || !random.random_bool(missing);
                 estimator.measure(&[came.then_some((axis.position + SIGMA * noise) as f32)]).expect("in step");
-                if n >= 160 {
-                    let (state, sd) =
-                        (estimator.states()[0].expect("nominal"), estimator.state_sd()[0].expect("known"));
+                // Of a few too few have come by then.
+                if n >= 160
+                    && let Some(sd) = estimator.state_sd()[0]
+                {
+                    let state = estimator.states()[0].expect("nominal");
                     worst = worst.max(((f64::from(state.velocity) - axis.velocity) / f64::from(sd.velocity)).abs());
+                    count += 1;
                 }
                 let force = (2.0 * period * f64::from(n)).sin() as f32;
                 estimator.apply(&[force]);
@@ -138,7 +141,7 @@ fn a_quick_observer_is_not_thrown_off_by_gaps() {
             }
         }
         println!("λT {}, {missing} missing, seeds 0 to 59: velocity within {worst:.1} sd", lambda * period);
-        assert!(worst < 10.0, "λ {lambda}, {missing} missing: {worst}");
+        assert!(count > 50 * 140 && worst < 10.0, "λ {lambda}, {missing} missing: {worst}");
     }
 }
 
@@ -187,6 +190,53 @@ fn predictions_with_a_wrong_k_are_not_taken_for_measurements() {
             "{rate} Hz, blocks of {block}, {missing} missing, seeds 0 to 29: k within {worst:.1} sd, valid in {valid}"
         );
         assert!(worst < 8.0 && valid == 30, "{rate} Hz, {missing} missing: {worst}, {valid}");
+    }
+}
+
+/// Nor where the noise is given, so that k̂ can be valid early, while the velocity is what two measurements left of it, and few come: k̂ is never
+/// off by more than 8 of its standard deviations, and it becomes valid (with five measurements a second not within 4 s). (It was by 10 with half of them missing, by 26 with eight
+/// of ten; with 95 % missing and no first k by 4000, for good: k was read on from samples whose noise was not in its variance.)
+#[test]
+fn what_the_start_leaves_in_predictions_is_noise() {
+    for (rate, block, missing, first, at_least) in [
+        (1000.0, 40, 0.5, Some(1.3), 40),
+        (1000.0, 10, 0.8, Some(1.0), 40),
+        (1000.0, 40, 0.8, None, 40),
+        (4000.0, 40, 0.8, Some(1.0), 40),
+        (4000.0, 40, 0.95, Some(1.0), 35),
+        (100.0, 1, 0.95, None, 0),
+    ] {
+        let period = 1.0 / rate;
+        let config = EstimatorConfig::<1, 1> {
+            block,
+            drift: [-9.81],
+            nominal: [first.map(|first| first * 2.0)],
+            noise_sd: Some(SIGMA),
+            ..EstimatorConfig::new(period)
+        };
+        let (mut worst, mut valid) = (0.0_f64, 0);
+        for seed in 0..40 {
+            let mut estimator = Estimator::new(&config).expect("valid");
+            let mut random = Pcg64Mcg::seed_from_u64(seed);
+            let mut axis = HeldInputAxis { position: 0.3, velocity: 0.2, k: 2.0, drift: -9.81 };
+            for n in 0..(4.0 * rate) as u32 {
+                let noise: f64 = random.sample(StandardNormal);
+                let came = n == 0 || !random.random_bool(missing);
+                estimator.measure(&[came.then_some((axis.position + SIGMA * noise) as f32)]).expect("in step");
+                if let Some(found) = estimator.parameters()[0] {
+                    worst = worst.max(((f64::from(found.value) - 2.0) / f64::from(found.sd()).max(2e-6)).abs());
+                }
+                let force =
+                    ((9.81 - axis.velocity - axis.position + 3.0 * (2.0 * period * f64::from(n)).sin()) / 2.0) as f32;
+                estimator.apply(&[force]);
+                axis.step(f64::from(force), period);
+            }
+            valid += u32::from(estimator.parameters()[0].is_some());
+        }
+        println!(
+            "{rate} Hz, blocks of {block}, {missing} missing, first k {first:?}, seeds 0 to 39: k within {worst:.1} sd, valid in {valid}"
+        );
+        assert!(worst < 8.0 && valid >= at_least, "{rate} Hz, {missing} missing: {worst}, {valid}");
     }
 }
 

@@ -13,6 +13,7 @@ mod frame;
 
 use board::{CLOCK, Marker, Motor};
 use core::panic::PanicInfo;
+use core::sync::atomic::{AtomicU32, Ordering};
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::exception;
 use embassy_executor::Spawner;
@@ -27,6 +28,8 @@ use fsb_firmware::{Allocation, ControlLoop, LoopConfig, Sample, TiltedHexarotor,
 const RATE: u32 = 1000;
 
 static TICK: Signal<CriticalSectionRawMutex, ()> = Signal::new();
+/// Ticks that were due while the one before had not been taken up: lost. For telemetry, or a debugger.
+static OVERRUNS: AtomicU32 = AtomicU32::new(0);
 static SAMPLE: Signal<CriticalSectionRawMutex, Sample> = Signal::new();
 /// Bytes of the receiver.
 static BYTES: Channel<CriticalSectionRawMutex, u8, 64> = Channel::new();
@@ -38,6 +41,9 @@ fn panic(_: &PanicInfo) -> ! {
 
 #[exception]
 fn SysTick() {
+    if TICK.signaled() {
+        OVERRUNS.fetch_add(1, Ordering::Relaxed);
+    }
     TICK.signal(());
     // At 9600 baud no more than one byte comes in a tick.
     if let Some(byte) = board::received() {
@@ -68,9 +74,15 @@ async fn main(spawner: Spawner) {
 /// The control period.
 #[embassy_executor::task]
 async fn control(mut flight: ControlLoop<Motor, Marker>) {
+    // From the first tick on the motors carry the weight: none before something was measured. A vehicle is armed besides.
+    let mut sample = Some(SAMPLE.wait().await);
+    // Of the ticks before none was to be taken up.
+    TICK.reset();
+    OVERRUNS.store(0, Ordering::Relaxed);
     loop {
         TICK.wait().await;
-        let Ok(_) = flight.tick(SAMPLE.try_take().as_ref(), &[Reference::default(); 6]);
+        sample = SAMPLE.try_take().or(sample);
+        let Ok(_) = flight.tick(sample.take().as_ref(), &[Reference::default(); 6]);
     }
 }
 

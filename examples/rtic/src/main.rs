@@ -33,6 +33,8 @@ mod app {
         sample: Option<Sample>,
         /// 1/m, 1/Ix, 1/Iy, 1/Iz for the telemetry.
         parameters: [Option<Parameter>; 4],
+        /// Overruns so far, likewise.
+        late: u32,
     }
 
     #[local]
@@ -41,6 +43,8 @@ mod app {
         timer: TIM2,
         decoder: Decoder,
         ticks: u32,
+        /// Ticks that were still computing when the next one was due.
+        overruns: u32,
     }
 
     #[init]
@@ -59,22 +63,31 @@ mod app {
         let config = LoopConfig::new(1.0 / f64::from(RATE), 1.5, [0.015, 0.015, 0.03], allocation);
         let flight = ControlLoop::new(&config, motors, marker).expect("a good configuration");
         (
-            Shared { sample: None, parameters: [None; 4] },
-            Local { flight, timer: device.TIM2, decoder: Decoder::default(), ticks: 0 },
+            Shared { sample: None, parameters: [None; 4], late: 0 },
+            Local { flight, timer: device.TIM2, decoder: Decoder::default(), ticks: 0, overruns: 0 },
         )
     }
 
     /// The control period. Nothing that it waits for can take long: the tasks below only copy under their lock.
-    #[task(binds = TIM2, priority = 3, local = [flight, timer, ticks], shared = [sample, parameters])]
+    #[task(binds = TIM2, priority = 3, local = [flight, timer, ticks, overruns], shared = [sample, parameters, late])]
     fn tick(mut context: tick::Context) {
         context.local.timer.sr().modify(|_, w| w.uif().clear());
         let sample = context.shared.sample.lock(Option::take);
+        // From the first tick on the motors carry the weight: none before something was measured. A vehicle is armed besides.
+        if *context.local.ticks == 0 && sample.is_none() {
+            return;
+        }
         let wanted = [Reference::default(); 6];
         let Ok(_) = context.local.flight.tick(sample.as_ref(), &wanted);
-        *context.local.ticks += 1;
+        *context.local.ticks = context.local.ticks.checked_add(1).unwrap_or(1);
+        if context.local.timer.sr().read().uif().bit_is_set() {
+            *context.local.overruns = context.local.overruns.saturating_add(1);
+        }
         if context.local.ticks.is_multiple_of(RATE / 10) {
             let now = context.local.flight.parameters();
             context.shared.parameters.lock(|parameters| *parameters = now);
+            let late = *context.local.overruns;
+            context.shared.late.lock(|told| *told = late);
             // Refused where the last one is still being sent.
             let _ = telemetry::spawn();
         }
@@ -93,17 +106,17 @@ mod app {
         }
     }
 
-    /// Ten times a second, when nothing else is to do: the mass over ITM port 0.
-    #[task(priority = 1, shared = [parameters])]
+    /// Ten times a second, when nothing else is to do: overruns, and 1/m with its variance once it is known, over ITM port 0.
+    #[task(priority = 1, shared = [parameters, late])]
     async fn telemetry(mut context: telemetry::Context) {
         let [mass, ..] = context.shared.parameters.lock(|parameters| *parameters);
-        if let Some(known) = mass {
-            // SAFETY: the only user of the ITM.
-            let port = unsafe { &mut (*cortex_m::peripheral::ITM::PTR).stim[0] };
-            for word in [known.value.to_bits(), known.variance.to_bits()] {
-                while !port.is_fifo_ready() {}
-                port.write_u32(word);
-            }
+        let late = context.shared.late.lock(|late| *late);
+        // SAFETY: the only user of the ITM.
+        let port = unsafe { &mut (*cortex_m::peripheral::ITM::PTR).stim[0] };
+        let known = mass.map_or([f32::NAN; 2], |known| [known.value, known.variance]).map(f32::to_bits);
+        for word in [late, known[0], known[1]] {
+            while !port.is_fifo_ready() {}
+            port.write_u32(word);
         }
     }
 }

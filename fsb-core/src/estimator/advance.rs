@@ -58,9 +58,10 @@ impl Parts<'_> {
         }
         progress.started = true;
         progress.substep = 0;
+        let mut back = false;
         if !(progress.all_measured && complete) {
             self.count_missing(y);
-            self.repair_positions(y, m1, gains.t_l2());
+            back = self.repair_positions(y, m1, gains.t_l2());
         }
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.observer.gains = gains;
@@ -78,6 +79,9 @@ impl Parts<'_> {
             self.take_turns(position, next);
         } else if identifying {
             self.take_singles();
+            if back {
+                self.make_up();
+            }
         } else if progress.observer.count.checked_rem(common.schedule.gains_every) == Some(1) {
             // Nobody has a turn, and the observers go on.
             self.turn_gains();
@@ -121,6 +125,17 @@ impl Parts<'_> {
         }
         if gains_turn {
             self.turn_gains();
+        }
+    }
+
+    /// What fell to samples that were missing.
+    #[inline(never)]
+    fn make_up(&mut self) {
+        let Frame { common, progress, axes } = &mut *self.frame;
+        for (index, axis) in axes.iter_mut().enumerate() {
+            if let Some(parameter) = self.parameters.get_mut(parameter_of(index, self.parameters)) {
+                axis.make_up(&progress.identifier, parameter, common);
+            }
         }
     }
 

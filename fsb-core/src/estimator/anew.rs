@@ -1,6 +1,6 @@
 //! The identification begun anew, and what becomes of what is known.
 
-use super::axis::{Axis, Clocks};
+use super::axis::{Axis, Clocks, Marks};
 use super::design::Common;
 use super::parts::{Frame, Parts, parameter_of};
 use super::shared::IdentifierClock;
@@ -62,6 +62,9 @@ impl Axis {
         }
         self.noise.forget_gaps();
         (self.cascade, self.cross, self.block) = Default::default();
-        (self.begun, self.present, self.missed) = (false, false, 0);
+        (self.present, self.missed) = (false, 0);
+        for mark in [Marks::BEGUN, Marks::OWES] {
+            self.marks.set(mark, false);
+        }
     }
 }

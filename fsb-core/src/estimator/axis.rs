@@ -32,6 +32,31 @@ pub(super) struct Clocks<'a> {
     pub observer: &'a ObserverClock,
 }
 
+/// Yes or no, several in a byte.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Marks {
+    pub bits: u8,
+}
+
+impl Marks {
+    /// The first block has begun.
+    pub const BEGUN: u8 = 1;
+    /// A coarse step fell to a block in which nothing came.
+    pub const OWES: u8 = 2;
+    /// The innovation after the last gap came together over a long time, and does not go on.
+    pub const LEAPT: u8 = 4;
+
+    #[inline(always)]
+    pub const fn has(self, mark: u8) -> bool {
+        self.bits & mark != 0
+    }
+
+    #[inline(always)]
+    pub const fn set(&mut self, mark: u8, to: bool) {
+        self.bits = if to { self.bits | mark } else { self.bits & !mark };
+    }
+}
+
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Axis {
     pub observer: Observer,
@@ -61,8 +86,8 @@ pub(super) struct Axis {
     pub source: Source,
     /// Measured at least once, and not lost since.
     pub measured: bool,
-    /// The first block has begun.
-    pub(super) begun: bool,
+    /// What has happened: bits of [`Marks`].
+    pub(super) marks: Marks,
     /// Takes part in the identification: it was measured when its first block began.
     pub present: bool,
     pub own: AxisDesign,
@@ -100,7 +125,7 @@ impl Axis {
     /// The sample just taken is the first of a block.
     #[inline(always)]
     pub fn begin_block(&mut self, common: &Common) {
-        if self.begun {
+        if self.marks.has(Marks::BEGUN) {
             self.block.begin(&common.block);
         } else {
             self.begin_first();
@@ -109,7 +134,7 @@ impl Axis {
 
     #[inline(never)]
     fn begin_first(&mut self) {
-        self.begun = true;
+        self.marks.set(Marks::BEGUN, true);
         self.origin = self.observer.measurement();
         self.present = self.measured;
         self.block = BlockMeans::default();
@@ -130,7 +155,7 @@ impl Axis {
     /// Whether the axis takes part, which is decided at the first sample of its first block.
     #[inline(always)]
     pub fn takes_part(&mut self) -> bool {
-        if !self.present && !self.begun {
+        if !self.present && !self.marks.has(Marks::BEGUN) {
             self.begin_first();
         }
         self.present

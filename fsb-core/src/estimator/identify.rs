@@ -2,11 +2,11 @@
 
 use core::mem;
 
-use super::axis::Axis;
+use super::axis::{Axis, Marks};
 use super::design::Common;
 use super::shared::IdentifierClock;
 use crate::identifier::{BlockMean, Coefficients, Stage};
-use crate::readout::{CoarseStep, NoiseLevel, ParameterState, Readout, weight};
+use crate::readout::{CoarseStep, NoiseLevel, ParameterState, Ratio, Readout, weight};
 
 /// What all axes need in a round of single samples.
 #[derive(Clone, Copy)]
@@ -56,7 +56,11 @@ impl Axis {
         common: &Common,
     ) {
         if u32::from(self.missed) < common.block_length && clock.blocks > 2 {
+            let coarse = coarse || self.marks.has(Marks::OWES);
+            self.marks.set(Marks::OWES, false);
             self.read_out_generally(z2, coarse, clock, parameter, common);
+        } else {
+            self.marks.set(Marks::OWES, coarse || self.marks.has(Marks::OWES));
         }
         self.missed = 0;
     }
@@ -76,6 +80,22 @@ impl Axis {
         let z2 = self.cascade.z2() - self.own.drift * round.zu;
         if self.tells(common) && round.open {
             self.read_out(z2, coarse, clock, parameter, common);
+        } else if coarse {
+            self.marks.set(Marks::OWES, true);
+        }
+    }
+
+    /// The coarse step that fell to a sample that was missing, at the first one after the gap: what that one adds to the quotient, which may be
+    /// more than all before it, is in the variance as well.
+    #[inline(never)]
+    pub fn make_up(&mut self, clock: &IdentifierClock, parameter: &mut ParameterState, common: &Common) {
+        if self.marks.has(Marks::OWES) && self.gap == 0 && self.present && clock.blocks > 2 {
+            self.marks.set(Marks::OWES, false);
+            let z0 = self.cascade.z0();
+            if Ratio::is_informative(z0) {
+                let z2 = self.cascade.z2() - self.own.drift * clock.unit.zu();
+                self.coarse_step(z2, z0, clock, parameter, common);
+            }
         }
     }
 
@@ -158,7 +178,7 @@ impl Axis {
         if self.noise.has_gaps() {
             // A block in which nothing came is not heard, and does not fade what was missing.
             let came = 1.0 - f32::from(self.missed) * common.block.per_length;
-            stretch = self.noise.stretch(covariance.fading(), came);
+            stretch = self.noise.stretch(covariance.fading(clock.blocks), came);
         }
         let added = self.cross.step(covariance.stride * up * stretch, &clock.shape, covariance);
         self.noise_sum.add_folded(added - covariance.noise_forgetting * self.noise_sum.value());

@@ -27,7 +27,8 @@ pub enum StateStatus {
     Stale,
     /// No parameter to predict with: k̂ is not valid and there is no nominal one.
     NoParameter,
-    /// Usable, predicted with the nominal parameter.
+    /// Usable, predicted with the nominal parameter, and as right as that is: off by Δk it leaves the velocity off by up to 2 |Δk f|/λ of the
+    /// observer, and where measurements are missing by one over the share that comes more.
     Nominal,
     /// Usable, predicted with the identified parameter.
     Identified,

@@ -169,9 +169,11 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     }
 
     /// Standard deviations of the states at the last measurement instant that measurement noise causes, where the noise
-    /// level is known. The parameter's own uncertainty is not in them, nor are measurements that were missed before the last
-    /// one that came: up to half of them at random hardly tell, more of them in the first 8/λ leave errors of the start that are many
-    /// times as large. Good to a few per cent otherwise; for reports, not for the tick.
+    /// level is known. The parameter's own uncertainty is not in them.
+    ///
+    /// Where some of the first measurements were missed, on any axis, and others came after them there is none until those that came
+    /// make up 8/λ of the observer: what the start leaves in the state depends on which of them came. Otherwise good to a few per cent, and
+    /// to 15 % with up to seven of ten missing at random. For reports, not for the tick.
     pub fn state_sd(&self) -> [Option<AxisState>; N] {
         let (tuning, period) = (self.frame.common.observer_tuning, self.frame.common.measurement_period);
         let count = self.frame.progress.observer.count;
@@ -184,7 +186,9 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
             };
             // Means over M samples have an M-th of the variance.
             let variance = axis.noise.measurement_variance() * self.frame.common.block_length as f32;
-            (axis.noise.is_known() && axis.measured).then(|| AxisState {
+            let clock = &self.frame.progress.observer;
+            let forgotten = clock.early == 0 || clock.came(axis.gap) >= self.frame.common.late_settle;
+            (axis.noise.is_known() && axis.measured && forgotten).then(|| AxisState {
                 position: libm::sqrtf(variance * gain.position_after(axis.gap)),
                 velocity: libm::sqrtf(variance * gain.velocity(&self.frame.common.observer)),
             })

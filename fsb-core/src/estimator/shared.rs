@@ -57,13 +57,28 @@ pub(super) struct ObserverClock {
     until: u32,
     /// The gains change slowly: they are renewed, and the window moves, once in a while.
     pub striding: bool,
+    /// Measurements that had been missed when others came, among the first.
+    pub early: u16,
 }
 
 impl ObserverClock {
     /// Measurements in which the gains change too fast to be held.
     const HURRIED: u32 = 32;
 
-    pub const START: Self = Self { window: Window::START, gains: Gains::FIRST, count: 0, until: 0, striding: false };
+    pub const START: Self =
+        Self { window: Window::START, gains: Gains::FIRST, count: 0, until: 0, striding: false, early: 0 };
+
+    /// Measurements that came, where there was a `gap` since the last of them, as far as it matters.
+    pub fn came(&self, gap: u16) -> u32 {
+        self.count.saturating_sub(u32::from(self.early) + u32::from(gap))
+    }
+
+    /// Measurements were missed before the one that has come, after which the state has forgotten its start in `late` of them.
+    pub fn note_gap(&mut self, gap: u16, late: u32) {
+        if self.came(gap) < late {
+            self.early = self.early.saturating_add(gap);
+        }
+    }
 
     /// One more measurement instant. The origin moves on long before the count could run out.
     #[inline(always)]
@@ -174,7 +189,7 @@ impl IdentifierClock {
     }
 }
 
-stored!(ObserverClock { window, gains, count, until, striding });
+stored!(ObserverClock { window, gains, count, until, striding, early });
 stored!(IdentifierClock { window, at, unit, shape, position, began, blocks, stride, settled });
 
 impl ObserverClock {

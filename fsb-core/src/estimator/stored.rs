@@ -2,13 +2,14 @@
 
 use super::Estimator;
 use super::advance::LONG_AGO;
-use super::axis::{Axis, Source};
+use super::axis::{Axis, Marks, Source};
 use super::output::{Counters, Learning};
 use super::shared::Progress;
 use crate::snapshot::{Archive, Fingerprint, Stored, Whole, snapshots, stored};
 
 stored!(Counters { missed, rejected_measurements, rejected_inputs });
 stored!(Progress { observer, identifier, substep, started, all_measured, steady, learning, counters });
+stored!(Marks { bits });
 stored!(Axis {
     observer,
     model,
@@ -27,7 +28,7 @@ stored!(Axis {
     gap,
     source,
     measured,
-    begun,
+    marks,
     present,
 });
 

@@ -95,15 +95,18 @@ impl CovarianceDesign {
         self.forgetting = decayed(faded.over(Wide::of(sharing))).rounded();
     }
 
-    /// What three stages of the identifier's filter forget in a coarse step: the memory of what was missing.
-    pub const fn fading(&self) -> f32 {
+    /// What three stages of the identifier's filter forget in a coarse step: the memory of what was missing. After fewer `steps` of the
+    /// identifier than they remember it is the mean of all.
+    pub const fn fading(&self, steps: u32) -> f32 {
         let three = 3.0 * self.c;
-        if three < 1.0 { three } else { 1.0 }
+        let all = self.stride / (steps as f32 + 1.0);
+        let fading = if three > all { three } else { all };
+        if fading < 1.0 { fading } else { 1.0 }
     }
 
     /// The share of that which one step of the identifier has.
-    pub fn share(&self) -> f32 {
-        self.fading() * self.per_stride
+    pub fn share(&self, steps: u32) -> f32 {
+        self.fading(steps) * self.per_stride
     }
 
     /// A x, A = [[p, cp, c²p], [0, p, cp], [0, 0, p]].

@@ -92,9 +92,10 @@ impl NoiseLevel {
     }
 
     /// After a gap of `missing` measurements the first one is `off` from what was expected: what stood in for those that are missing
-    /// was off by about half of that, and all of it the same way. `gain` is the share that one measurement has in the memory.
-    pub(crate) fn come_back(&mut self, missing: f32, off: f32, gain: f32) {
-        self.gaps += gain * (0.25 * missing * (off * off));
+    /// was off by about half of that, and all of it the same way, as it goes on to be for so many measurements, the gap or `lasting`. Each counts as so
+    /// many times its square. `gain` is the share that one measurement has in the memory.
+    pub(crate) fn come_back(&mut self, missing: f32, lasting: f32, off: f32, gain: f32) {
+        self.gaps += gain * (0.25 * (missing * lasting) * (off * off));
     }
 
     /// A new window: what stood in for measurements before is not in it.

@@ -9,6 +9,9 @@ use super::velocity::VelocityCascade;
 use crate::identifier::{BlockMeans, Cascade};
 use crate::moments::InputMoments;
 
+/// Where most measurements are missing, the residuals tell of the predictions as well.
+const STRETCH: f32 = 3.0;
+
 /// What predicts this axis at present.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Source {
@@ -67,6 +70,8 @@ pub(super) struct Axis {
     missed: u32,
     /// Measurements replaced since the last one that came.
     gap: u32,
+    /// Σ over the rows of the share of the measurements before each that was replaced.
+    absent: f32,
     pub source: Source,
     /// Measured at least once, and not lost since.
     pub measured: bool,
@@ -117,7 +122,12 @@ impl Axis {
         }
         self.missed = self.missed.saturating_add(1);
         self.gap = self.gap.saturating_add(1);
-        let predicted = self.observer.predict(self.moments, &self.model, m1);
+        let mut predicted = self.observer.predict(self.moments, &self.model, m1);
+        // With no parameter the innovation is what the input does, and goes on for a time of 1/λ, as in the plain estimator.
+        let gap = self.gap as f32;
+        if gap * gap * clock.gains.t_l2() <= 1.0 && matches!(self.source, Source::Nothing | Source::Provisional) {
+            predicted += self.observer.state().innovation();
+        }
         if self.measured && predicted.abs() <= common.position_limit {
             *y = predicted;
         } else {
@@ -149,11 +159,27 @@ impl Axis {
         Row { zu, minus_zv: -self.velocity.zv(), z0: self.cascade.z0(), z2: self.cascade.z2() - self.own.drift * zu }
     }
 
+    /// How many times the residuals' mean square counts: one over the share of the measurements that came, squared, nine at most. What
+    /// stands in for those that did not is off by the same for a whole gap, and by what was not known of k at its time.
+    #[inline(always)]
+    pub fn stretch2(&self) -> f32 {
+        if self.absent > 0.0 { self.stretched() } else { 1.0 }
+    }
+
+    #[inline(never)]
+    fn stretched(&self) -> f32 {
+        let came = 1.0 - self.absent / self.triangle.count();
+        if came > 1.0 / STRETCH { 1.0 / (came * came) } else { STRETCH * STRETCH }
+    }
+
     /// Takes the row of this moment in. One between which and the last every measurement was missed says nothing.
     pub fn collect(&mut self, clock: &Clock, common: &Common) {
         if self.present && self.missed < common.row_every {
             let row = self.row(clock);
             self.triangle.add(&row, common.forgetting);
+            if self.missed > 0 || self.absent > 0.0 {
+                self.absent += self.missed as f32 * common.per_row_every - common.forgetting * self.absent;
+            }
         }
         self.missed = 0;
     }

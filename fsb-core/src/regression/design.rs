@@ -30,6 +30,8 @@ pub(super) struct Common {
     pub gains_every: u32,
     /// Measurements from one row of the regression to the next.
     pub row_every: u32,
+    /// One over that.
+    pub per_row_every: f32,
     /// Items of work between two rows, and how many of them fall to one measurement.
     pub items_per_measurement: u32,
     /// 1 - μ over a row.
@@ -122,6 +124,7 @@ impl Common {
             observer_stride: WindowDesign::new(&config.observer.decay(Wide::new(period * f64::from(gains_every)))),
             gains_every,
             row_every,
+            per_row_every: 1.0 / row_every as f32,
             items_per_measurement: items(N as u32).div_ceil(row_every),
             forgetting: decayed(Wide::new(fading)).rounded(),
             colour: (0.79 / (config.identifier.lambda * row)) as f32,

@@ -137,7 +137,7 @@ impl Axis {
     /// Rows are not independent, and those that the unknowns have taken do not count; `taken` is the part of k's.
     fn variance(&self, residual: f32, taken: f32, common: &Common) -> f32 {
         let worth = self.rows(common) - common.colour * (self.columns.count() + taken);
-        let variance = common.colour * residual / worth;
+        let variance = common.colour * residual / worth * self.stretch2();
         if worth > 0.0 && variance >= 0.0 { variance } else { f32::MAX }
     }
 

@@ -89,30 +89,30 @@ fn what_was_missing() {
     }
 }
 
-/// What predictions were found to be off by counts beside the noise, as a mean square: gaps of two that end 6 off, every tenth measurement,
-/// are 2 x 36/4 a tenth of the time.
+/// What predictions were found to be off by counts beside the noise, as the mean square of white noise with the same sum: gaps of two that
+/// end 6 off, every tenth measurement, are (3 + 3)² a tenth of the time.
 #[test]
 fn what_predictions_were_off_by() {
     let (mut level, mut stretch) = (NoiseLevel::expected(0.5), 0.0);
     for n in 0..1000 {
         if n % 10 == 0 {
-            level.come_back(2.0, 6.0, 0.01);
+            level.come_back(2.0, 2.0, 6.0, 0.01);
         }
         stretch = level.stretch(0.01, 1.0);
     }
-    assert!((stretch * stretch / (1.0 + 1.8 / 0.5) - 1.0).abs() < 0.1, "{stretch}");
+    assert!((stretch * stretch / (1.0 + 3.6 / 0.5) - 1.0).abs() < 0.1, "{stretch}");
     level.forget_gaps();
     assert!(!level.has_gaps());
     // From one to the most there is: √(1 + gaps/σ²).
     for n in 0..4000_u16 {
         let square = libm::powf(10.0, 8.0 * f32::from(n) / 4000.0);
         let mut level = NoiseLevel::expected(1.0);
-        level.come_back(4.0, libm::sqrtf(square), 1.0);
+        level.come_back(4.0, 1.0, libm::sqrtf(square), 1.0);
         let off = level.stretch(0.0, 1.0) / libm::sqrtf(1.0 + square) - 1.0;
         assert!((-1e-6..1.1e-3).contains(&off), "{square}: {off}");
     }
     // Whatever comes, it is a number.
     let mut level = NoiseLevel::UNKNOWN;
-    level.come_back(65_535.0, 1e6, 0.01);
+    level.come_back(65_535.0, 65_535.0, 1e6, 0.01);
     assert!((1.0..=1.002e4).contains(&level.stretch(0.01, 1.0)));
 }
