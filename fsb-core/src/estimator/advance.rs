@@ -2,37 +2,34 @@
 
 use super::Estimator;
 use super::axis::Clocks;
-use super::identify::{Misfit, SingleRound};
-use super::output::Learning;
+use super::identify::Misfit;
 use super::parts::{Frame, Parts, parameter_of};
+use super::shared::Pace;
 use crate::identifier::BlockMeans;
+use crate::observer::Gains;
 
 /// Counts of measurements are kept below about this: three days at 8 kHz.
 pub(super) const LONG_AGO: u32 = 1 << 31;
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
-    /// The quick way: everybody measured, gains that hardly change.
+    /// [`Pace::Steady`], and [`Pace::Hurried`].
     #[inline(always)]
-    pub(super) fn advance_steadily(&mut self, y: &[f32; N]) {
+    pub(super) fn advance_steadily(&mut self, y: &[f32; N], pace: Pace) {
         let Frame { common, progress, axes } = &mut self.frame;
         progress.observer.tick();
         progress.substep = 0;
-        let gains = progress.observer.gains;
-        if common.block_length == 1 {
-            for (axis, &y) in axes.iter_mut().zip(y) {
-                axis.observe(y, gains.m1(), gains.t_l2());
-            }
-            self.parts().take_singles();
-        } else {
-            for (axis, &y) in axes.iter_mut().zip(y) {
-                axis.observe(y, gains.m1(), gains.t_l2());
-                axis.sample(y);
-            }
-            let position = progress.identifier.position;
-            let next = progress.identifier.move_on(common);
-            if common.schedule.events.wrapping_shr(position) & 1 == 1 {
-                self.parts().take_turns(position, next);
-            }
+        let Gains { m1, mut t_l2 } = progress.observer.gains;
+        if pace == Pace::Hurried {
+            t_l2 = progress.hurry_on(common);
+        }
+        for (axis, &y) in axes.iter_mut().zip(y) {
+            axis.observe(y, m1, t_l2);
+            axis.sample(y);
+        }
+        let position = progress.identifier.position;
+        let next = progress.identifier.move_on(common);
+        if common.schedule.events.wrapping_shr(position) & 1 == 1 {
+            self.parts().take_turns(position, next);
         }
     }
 }
@@ -44,19 +41,16 @@ impl Parts<'_> {
         let Frame { common, progress, .. } = &mut *self.frame;
         let limit = common.position_limit;
         let complete = y.iter().all(|y| y.abs() <= limit);
-        if !progress.started && !complete {
-            self.count_missing(y);
+        if !progress.started {
+            if complete {
+                self.start(y);
+            } else {
+                self.count_missing(y);
+            }
             return;
         }
         let m1 = progress.observer.gains.m1();
-        let mut gains = progress.observer.gains;
-        if progress.started {
-            progress.observer.tick();
-            if !progress.observer.striding {
-                gains = progress.observer.next(common);
-            }
-        }
-        progress.started = true;
+        let gains = progress.observer.next(common);
         progress.substep = 0;
         if !(progress.all_measured && complete) {
             self.count_missing(y);
@@ -64,15 +58,48 @@ impl Parts<'_> {
         }
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.observer.gains = gains;
-        let identifying = progress.observer.count >= progress.identifier.began && progress.learning == Learning::On;
+        let identifying = progress.is_identifying();
         let in_block = identifying && common.block_length > 1;
         for (axis, &y) in axes.iter_mut().zip(y.iter()) {
             axis.observe(y, m1, gains.t_l2());
-        }
-        if in_block {
-            for (axis, &y) in axes.iter_mut().zip(y.iter()) {
+            if in_block {
                 axis.sample(y);
             }
+        }
+        self.identify(identifying);
+        let Frame { common, progress, axes } = &mut *self.frame;
+        progress.pace = if !(complete && progress.all_measured && identifying) {
+            Pace::Careful
+        } else if common.block_length > 1 {
+            if progress.observer.striding { Pace::Steady } else { Pace::Hurried }
+        } else {
+            // The window is zero in the first two samples.
+            let open = progress.identifier.blocks >= 2;
+            if open && axes.iter().all(|axis| axis.present) { Pace::Singles } else { Pace::Careful }
+        };
+    }
+
+    /// The first instant at which every axis is measured.
+    #[inline(never)]
+    fn start(&mut self, y: &[f32]) {
+        let Frame { common, progress, axes } = &mut *self.frame;
+        (progress.started, progress.all_measured, progress.substep) = (true, true, 0);
+        let settled_at = common.state_settle.max(1);
+        let Gains { m1, t_l2 } = Gains::FIRST;
+        for (axis, &y) in axes.iter_mut().zip(y) {
+            axis.measure_first(y, settled_at);
+            axis.observe(y, m1, t_l2);
+        }
+        // No block has begun before.
+        let identifying = progress.is_identifying();
+        self.identify(identifying);
+    }
+
+    /// The identifier's part of an instant.
+    #[inline(always)]
+    fn identify(&mut self, identifying: bool) {
+        let Frame { common, progress, .. } = &mut *self.frame;
+        if identifying && common.block_length > 1 {
             let position = progress.identifier.position;
             let next = progress.identifier.move_on(common);
             self.take_turns(position, next);
@@ -82,71 +109,6 @@ impl Parts<'_> {
             // Nobody has a turn, and the observers go on.
             self.turn_gains();
             self.fold_observers();
-        }
-        let progress = &mut self.frame.progress;
-        progress.steady = complete && progress.all_measured && progress.observer.striding && identifying;
-    }
-
-    /// Blocks of one sample.
-    #[inline(never)]
-    fn take_singles(&mut self) {
-        let Frame { common, progress, axes } = &mut *self.frame;
-        let schedule = &common.schedule;
-        let clock = &mut progress.identifier;
-        clock.step(common);
-        let round =
-            SingleRound { stage: common.identifier.stage(), at: clock.at, zu: clock.unit.zu(), open: clock.blocks > 2 };
-        // The axis that takes its coarse step, and how far that is from one axis to the next.
-        let apart = u32::from(schedule.staggered);
-        let mut until = if clock.is_shaped(common) { clock.stride } else { u32::MAX };
-        until = until.wrapping_sub(apart);
-        let of_next = usize::from(self.parameters.len() != 1);
-        let mut of = 0;
-        for axis in axes.iter_mut() {
-            if axis.takes_part()
-                && let Some(parameter) = self.parameters.get_mut(of)
-            {
-                axis.identify_single(&round, until == 0, clock, parameter, common);
-            }
-            of += of_next;
-            until = until.wrapping_sub(apart);
-        }
-        let position = progress.identifier.position;
-        progress.identifier.position = (position + 1) & 7;
-        let gains_turn = position == schedule.gains_at;
-        if schedule.unhurried {
-            self.serve_all_singles();
-        } else {
-            self.serve_single(position as usize);
-        }
-        if gains_turn {
-            self.turn_gains();
-        }
-    }
-
-    /// An axis's turn where blocks are single samples.
-    #[inline(always)]
-    fn serve_single(&mut self, index: usize) {
-        let Frame { common, axes, .. } = &mut *self.frame;
-        let of = parameter_of(index, self.parameters);
-        if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
-            axis.observer.fold();
-            axis.cascade.fold();
-            if parameter.stale || !axis.follow_on(parameter, common) {
-                self.serve_carefully(index, true);
-            }
-        }
-    }
-
-    /// All axes, where there is time enough.
-    #[inline(never)]
-    fn serve_all_singles(&mut self) {
-        for index in 0..self.frame.axes.len() {
-            if let Some(axis) = self.frame.axes.get_mut(index) {
-                axis.observer.fold();
-                axis.cascade.fold();
-            }
-            self.serve_carefully(index, true);
         }
     }
 
@@ -213,7 +175,7 @@ impl Parts<'_> {
     }
 
     #[inline(never)]
-    fn turn_gains(&mut self) {
+    pub fn turn_gains(&mut self) {
         if self.frame.progress.observer.count >= LONG_AGO {
             self.rebase();
         }
@@ -249,7 +211,7 @@ impl Parts<'_> {
 
     /// An axis's turn where the variance has to be `read` or the status or the source of the prediction may change.
     #[inline(never)]
-    fn serve_carefully(&mut self, index: usize, read: bool) {
+    pub fn serve_carefully(&mut self, index: usize, read: bool) {
         let Frame { common, progress, axes } = &mut *self.frame;
         let pooled = self.parameters.len() == 1;
         let Some(parameter) = self.parameters.get_mut(if pooled { 0 } else { index }) else { return };

@@ -84,6 +84,15 @@ impl Axis {
         self.usable_at = if usable { self.settled_at } else { u32::MAX };
     }
 
+    /// The first measurement of an estimator.
+    #[inline(always)]
+    pub fn measure_first(&mut self, y: f32, settled_at: u32) {
+        self.measured = true;
+        self.settled_at = settled_at;
+        self.observer.start(y);
+        self.decide_use();
+    }
+
     /// The observer's step with a measurement, or with what stands in for it.
     #[inline(always)]
     pub fn observe(&mut self, y: f32, m1: f32, t_l2: f32) {

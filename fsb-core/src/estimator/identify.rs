@@ -14,8 +14,13 @@ pub(super) struct SingleRound {
     pub stage: Stage,
     pub at: Coefficients,
     pub zu: f32,
-    /// The window is zero in the first two samples.
-    pub open: bool,
+}
+
+impl SingleRound {
+    #[inline(always)]
+    pub fn new(clock: &IdentifierClock, common: &Common) -> Self {
+        Self { stage: common.identifier.stage(), at: clock.at, zu: clock.unit.zu() }
+    }
 }
 
 impl Axis {
@@ -61,7 +66,15 @@ impl Axis {
         self.missed = 0;
     }
 
-    /// The sample just taken, a block by itself, through the cascade into the parameter's sums. Sums are not folded.
+    /// The sample `y`, a block by itself, through the cascade. Returns ẑ2 without the drift. Sums are not folded.
+    #[inline(always)]
+    pub fn step_single(&mut self, y: f32, round: &SingleRound) -> f32 {
+        let mean = self.block.single(y - self.origin, self.moments);
+        self.cascade.step_at(mean.y, mean.s, &round.stage, &round.at);
+        self.cascade.z2() - self.own.drift * round.zu
+    }
+
+    /// The sample just taken, a block by itself, through the cascade into the parameter's sums.
     #[inline(always)]
     pub fn identify_single(
         &mut self,
@@ -71,10 +84,9 @@ impl Axis {
         parameter: &mut ParameterState,
         common: &Common,
     ) {
-        let mean = self.block.single(self.observer.measurement() - self.origin, self.moments);
-        self.cascade.step_at(mean.y, mean.s, &round.stage, &round.at);
-        let z2 = self.cascade.z2() - self.own.drift * round.zu;
-        if self.tells(common) && round.open {
+        let z2 = self.step_single(self.observer.measurement(), round);
+        // The window is zero in the first two samples.
+        if self.tells(common) && clock.blocks > 2 {
             self.read_out(z2, coarse, clock, parameter, common);
         }
     }
@@ -87,7 +99,7 @@ impl Axis {
 
     /// `coarse`: it is the axis's turn for a coarse step.
     #[inline(always)]
-    fn read_out(
+    pub fn read_out(
         &mut self,
         z2: f32,
         coarse: bool,

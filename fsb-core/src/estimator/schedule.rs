@@ -53,8 +53,11 @@ impl Schedule {
                 (shared_at, shared_at)
             }
         };
-        let events = if round > 16 {
+        let unhurried = period.bits() >= Self::UNHURRIED.to_bits();
+        let events = if round > 16 || unhurried {
             u32::MAX
+        } else if block == 1 {
+            ((1 << axes) - 1) | 1 << gains_at
         } else {
             // Those who begin a block come first; what they complete, they complete one measurement earlier.
             let begin = (1 << axes) - 1;
@@ -68,7 +71,7 @@ impl Schedule {
             gains_every,
             gains_at,
             events,
-            unhurried: period.bits() >= Self::UNHURRIED.to_bits(),
+            unhurried,
             staggered: block == 1 && coarse_steps > axes,
         }
     }

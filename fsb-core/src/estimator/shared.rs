@@ -8,6 +8,19 @@ use crate::readout::NoiseShape;
 use crate::snapshot::stored;
 use crate::window::Window;
 
+/// The way that the next measurement goes, if every axis is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pace {
+    /// The general one.
+    Careful,
+    /// Blocks of one, in which everybody takes part.
+    Singles,
+    /// Blocks of several samples, and gains that hardly change.
+    Steady,
+    /// Blocks of several samples, in the first measurements.
+    Hurried,
+}
+
 /// Where the estimator is in time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Progress {
@@ -18,8 +31,7 @@ pub(super) struct Progress {
     pub started: bool,
     /// Every axis was measured at the last instant.
     pub all_measured: bool,
-    /// The next measurement can go the quick way.
-    pub steady: bool,
+    pub pace: Pace,
     pub learning: Learning,
     pub counters: Counters,
 }
@@ -32,7 +44,7 @@ impl Progress {
             substep: 0,
             started: false,
             all_measured: false,
-            steady: false,
+            pace: Pace::Careful,
             learning: Learning::On,
             counters: Counters::default(),
         }
@@ -43,6 +55,24 @@ impl Progress {
     /// At the start again, still counting, and learning as it was told.
     pub fn anew(&self, common: &Common) -> Self {
         Self { counters: self.counters, learning: self.learning, ..Self::start(common) }
+    }
+
+    /// The gains of the next of the first measurements; returns that of the velocity.
+    #[cold]
+    #[inline(never)]
+    pub fn hurry_on(&mut self, common: &Common) -> f32 {
+        if self.observer.striding {
+            self.pace = Pace::Steady;
+        } else {
+            self.observer.gains = self.observer.hurry(common);
+        }
+        self.observer.gains.t_l2()
+    }
+
+    /// Whether this measurement is the identifier's as well.
+    #[inline(always)]
+    pub fn is_identifying(&self) -> bool {
+        self.observer.count >= self.identifier.began && self.learning == Learning::On
     }
 }
 
@@ -71,8 +101,15 @@ impl ObserverClock {
         self.count = self.count.wrapping_add(1);
     }
 
-    /// The gains of the next of the first measurements.
+    /// One more measurement instant, and its gains.
+    #[inline(always)]
     pub fn next(&mut self, common: &Common) -> Gains {
+        self.tick();
+        if self.striding { self.gains } else { self.hurry(common) }
+    }
+
+    /// The gains of the next of the first measurements.
+    fn hurry(&mut self, common: &Common) -> Gains {
         self.window.step(&common.observer.window);
         // The very first at once, then in turns with an estimator that has another turn.
         if self.count < 4 || common.schedule.unhurried || (self.count ^ common.schedule.turn) & 1 == 0 {
