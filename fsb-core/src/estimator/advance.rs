@@ -1,12 +1,15 @@
 //! What a measurement instant does: the observers, the blocks, and whoever has a turn.
 
 use super::Estimator;
-use super::axis::Clocks;
+use super::axis::{Axis, Clocks};
+use super::design::Common;
 use super::identify::Misfit;
 use super::parts::{Frame, Parts, parameter_of};
+use super::schedule::Schedule;
 use super::shared::Pace;
 use crate::identifier::BlockMeans;
 use crate::observer::Gains;
+use crate::readout::ParameterState;
 
 /// Counts of measurements are kept below about this: three days at 8 kHz.
 pub(super) const LONG_AGO: u32 = 1 << 31;
@@ -66,17 +69,7 @@ impl Parts<'_> {
                 axis.sample(y);
             }
         }
-        self.identify(identifying);
-        let Frame { common, progress, axes } = &mut *self.frame;
-        progress.pace = if !(complete && progress.all_measured && identifying) {
-            Pace::Careful
-        } else if common.block_length > 1 {
-            if progress.observer.striding { Pace::Steady } else { Pace::Hurried }
-        } else {
-            // The window is zero in the first two samples.
-            let open = progress.identifier.blocks >= 2;
-            if open && axes.iter().all(|axis| axis.present) { Pace::Singles } else { Pace::Careful }
-        };
+        self.identify(identifying, complete);
     }
 
     /// The first instant at which every axis is measured.
@@ -92,12 +85,12 @@ impl Parts<'_> {
         }
         // No block has begun before.
         let identifying = progress.is_identifying();
-        self.identify(identifying);
+        self.identify(identifying, true);
     }
 
-    /// The identifier's part of an instant.
-    #[inline(always)]
-    fn identify(&mut self, identifying: bool) {
+    /// The identifier's part of an instant at which every axis was measured, if it is `complete`.
+    #[inline(never)]
+    fn identify(&mut self, identifying: bool, complete: bool) {
         let Frame { common, progress, .. } = &mut *self.frame;
         if identifying && common.block_length > 1 {
             let position = progress.identifier.position;
@@ -110,6 +103,16 @@ impl Parts<'_> {
             self.turn_gains();
             self.fold_observers();
         }
+        let Frame { common, progress, axes } = &mut *self.frame;
+        progress.pace = if !(complete && progress.all_measured && identifying) {
+            Pace::Careful
+        } else if common.block_length > 1 {
+            if progress.observer.striding { Pace::Steady } else { Pace::Hurried }
+        } else {
+            // The window is zero in the first two samples.
+            let open = progress.identifier.blocks >= 2;
+            if open && axes.iter().all(|axis| axis.present) { Pace::Singles } else { Pace::Careful }
+        };
     }
 
     /// The turns within a block of several samples: `begins` is the axis that has just taken the first one of a block,
@@ -137,20 +140,14 @@ impl Parts<'_> {
 
     #[inline(never)]
     fn turn(&mut self, begins: u32, completes: u32) {
-        let Frame { common, progress, axes } = &mut *self.frame;
-        let schedule = &common.schedule;
-        if begins == schedule.weights_at {
-            progress.identifier.step(common);
+        if self.frame.common.schedule.shared.wrapping_shr(begins) & 1 == 1 {
+            self.take_shared_turns(begins);
         }
+        let Frame { common, progress, axes } = &mut *self.frame;
         if let Some(axis) = axes.get_mut(begins as usize) {
             axis.begin_block(common);
         }
         let index = completes as usize;
-        let gains_turn = if schedule.round > schedule.gains_every {
-            progress.observer.is_due(common)
-        } else {
-            begins == schedule.gains_at
-        };
         let of = parameter_of(index, self.parameters);
         if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
             if axis.present {
@@ -162,13 +159,36 @@ impl Parts<'_> {
             }
             // Sums are folded, the parameter is read, the observer follows.
             axis.observer.fold();
-            // The variance that a coarse step makes due is read when the next block ends, if that one brings none.
+            // Where there is no room for the variance elsewhere, it is read when the next block ends.
             let coarse = progress.identifier.stride == 0 && common.covariance.steps > 1;
-            let due = parameter.stale && !coarse;
-            if due || !axis.follow_on(parameter, common) {
+            let due = parameter.stale && !coarse && common.schedule.reads_at == Schedule::NEVER;
+            if due || !axis.follow_on(parameter, common) && (!coarse || axis.has_more_to_do(parameter)) {
                 self.serve_carefully(index, due);
             }
         }
+    }
+
+    /// Variances, weights, gains.
+    #[inline(never)]
+    fn take_shared_turns(&mut self, begins: u32) {
+        let schedule = &self.frame.common.schedule;
+        let (reads, weighs) = (begins == u32::from(schedule.reads_at), begins == u32::from(schedule.weights_at));
+        if reads {
+            self.read_variances(0);
+        }
+        if weighs && self.frame.common.schedule.reads_at != Schedule::NEVER {
+            self.read_variances(1);
+        }
+        let Frame { common, progress, .. } = &mut *self.frame;
+        let schedule = &common.schedule;
+        if weighs {
+            progress.identifier.step(common);
+        }
+        let gains_turn = if schedule.round > schedule.gains_every {
+            progress.observer.is_due(common)
+        } else {
+            begins == u32::from(schedule.gains_at)
+        };
         if gains_turn {
             self.turn_gains();
         }
@@ -212,24 +232,50 @@ impl Parts<'_> {
     /// An axis's turn where the variance has to be `read` or the status or the source of the prediction may change.
     #[inline(never)]
     pub fn serve_carefully(&mut self, index: usize, read: bool) {
-        let Frame { common, progress, axes } = &mut *self.frame;
-        let pooled = self.parameters.len() == 1;
-        let Some(parameter) = self.parameters.get_mut(if pooled { 0 } else { index }) else { return };
-        if read && parameter.stale {
-            let per_stride = common.covariance.per_stride;
-            let mut sum = Misfit::NONE;
-            if pooled {
-                axes.iter().for_each(|axis| axis.share_misfit(&mut sum, per_stride));
-            } else if let Some(axis) = axes.get(index) {
-                axis.add_misfit(&mut sum, per_stride);
-            }
-            parameter.read_variance(sum.known_variance(), common.identifier.scale2());
-            parameter.compare(sum.unexplained, common.max_misfit * sum.signal);
+        let of = parameter_of(index, self.parameters);
+        if read {
+            self.read_variance(of);
         }
-        let Some(axis) = axes.get_mut(index) else { return };
+        let Frame { common, progress, axes } = &mut *self.frame;
+        let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) else { return };
         let settled = progress.observer.count - progress.identifier.began >= common.parameter_settle;
         parameter.read(settled);
         let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };
         axis.follow(parameter, clocks, common);
     }
+
+    /// The variances that are due, some at each of the two opportunities of a block; none in the block before the next coarse
+    /// step: what it leads to would come with that step.
+    #[inline(always)]
+    fn read_variances(&mut self, opportunity: usize) {
+        let (clock, steps) = (&self.frame.progress.identifier, self.frame.common.covariance.steps as usize);
+        let mut of = 2 * clock.stride as usize + opportunity;
+        while of < self.parameters.len() {
+            self.read_variance(of);
+            of += 2 * steps.saturating_sub(1).max(1);
+        }
+    }
+
+    /// The variance of a parameter, if it is due.
+    #[inline(never)]
+    pub fn read_variance(&mut self, of: usize) {
+        let Frame { common, axes, .. } = &mut *self.frame;
+        let whose = if self.parameters.len() == 1 { 0..axes.len() } else { of..of + 1 };
+        if let (Some(whose), Some(parameter)) = (axes.get(whose), self.parameters.get_mut(of))
+            && parameter.stale
+        {
+            read_variance_of(whose, parameter, common);
+        }
+    }
+}
+
+/// The variance of a parameter out of what its axes contribute to it.
+#[inline(never)]
+fn read_variance_of(axes: &[Axis], parameter: &mut ParameterState, common: &Common) {
+    let mut sum = Misfit::NONE;
+    for axis in axes {
+        axis.add_misfit(&mut sum, common.covariance.per_stride);
+    }
+    parameter.read_variance(sum.known_variance(), common.identifier.scale2());
+    parameter.compare(sum.unexplained, common.max_misfit * sum.signal);
 }

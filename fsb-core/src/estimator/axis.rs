@@ -32,18 +32,21 @@ pub(super) struct Clocks<'a> {
     pub observer: &'a ObserverClock,
 }
 
+/// In this order in memory: what every measurement touches comes first, within reach of one base address for several axes.
 #[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
 pub(super) struct Axis {
     pub observer: Observer,
     pub model: Model,
     /// Input over the last measurement interval, or over the present one as far as it is known.
     pub moments: InputMoments,
-    pub block: BlockMeans,
-    /// The first position, subtracted from all: the plant is translation invariant, rounding is not.
-    pub(super) origin: f32,
     /// The innovation before the last.
     pub(super) innovation_before: f32,
+    /// The first position, subtracted from all: the plant is translation invariant, rounding is not.
+    pub(super) origin: f32,
+    pub block: BlockMeans,
     pub cascade: Cascade,
+    pub own: AxisDesign,
     pub(super) cross: NoiseCross,
     /// var a for unit noise.
     pub(super) noise_sum: Accumulator,
@@ -65,7 +68,6 @@ pub(super) struct Axis {
     pub(super) begun: bool,
     /// Takes part in the identification: it was measured when its first block began.
     pub present: bool,
-    pub own: AxisDesign,
 }
 
 impl Axis {
@@ -153,6 +155,13 @@ impl Axis {
             self.model.follow(parameter.newest_value(), common.period2);
         }
         usual
+    }
+
+    /// Where [`follow_on`](Self::follow_on) did not do: whether there is more to it than a parameter that is not valid and stays
+    /// so, which may wait for the next turn.
+    #[inline(always)]
+    pub fn has_more_to_do(&self, parameter: &ParameterState) -> bool {
+        self.source == Source::Identified || parameter.may_be_valid()
     }
 
     /// Settles what predicts this axis, and puts the observer where the identifier's own states say it is when the

@@ -1,12 +1,10 @@
 //! An axis's block through the cascade, and into its parameter's sums.
 
-use core::mem;
-
 use super::axis::Axis;
 use super::design::Common;
 use super::shared::IdentifierClock;
 use crate::identifier::{BlockMean, Coefficients, Stage};
-use crate::readout::{CoarseStep, NoiseLevel, ParameterState, Readout, weight};
+use crate::readout::{CoarseStep, NoiseLevel, ParameterState, Ratio, Readout, weight};
 
 /// What all axes need in a round of single samples.
 #[derive(Clone, Copy)]
@@ -74,32 +72,31 @@ impl Axis {
         self.cascade.z2() - self.own.drift * round.zu
     }
 
-    /// The sample just taken, a block by itself, through the cascade into the parameter's sums.
+    /// The same, and into the parameter's sums. The coarse step comes after all axes.
     #[inline(always)]
-    pub fn identify_single(
-        &mut self,
-        round: &SingleRound,
-        coarse: bool,
-        clock: &IdentifierClock,
-        parameter: &mut ParameterState,
-        common: &Common,
-    ) {
-        let z2 = self.step_single(self.observer.measurement(), round);
-        // The window is zero in the first two samples.
-        if self.tells(common) && clock.blocks > 2 {
-            self.read_out(z2, coarse, clock, parameter, common);
+    pub fn identify_single(&mut self, y: f32, round: &SingleRound, parameter: &mut ParameterState, common: &Common) {
+        let z2 = self.step_single(y, round);
+        let z0 = self.cascade.z0();
+        if common.plain {
+            parameter.ratio.add_plain(z2, z0);
+        } else {
+            parameter.add_generally(z2, z0, common.readout, common.forgetting);
         }
     }
 
-    /// A block of predictions alone says nothing that was not known. To be asked once a block.
-    #[inline(always)]
-    fn tells(&mut self, common: &Common) -> bool {
-        self.missed == 0 || u32::from(mem::take(&mut self.missed)) < common.block_length
+    /// The coarse step with the sample that has just gone through the cascade.
+    pub fn step_coarsely(&mut self, clock: &IdentifierClock, parameter: &mut ParameterState, common: &Common) {
+        let (z2, z0) = (self.cascade.z2() - self.own.drift * clock.unit.zu(), self.cascade.z0());
+        if Ratio::is_informative(z0) {
+            self.coarse_step(z2, z0, clock, parameter, common);
+        } else {
+            parameter.step_coarsely(&CoarseStep::default(), 0.0);
+        }
     }
 
     /// `coarse`: it is the axis's turn for a coarse step.
     #[inline(always)]
-    pub fn read_out(
+    fn read_out(
         &mut self,
         z2: f32,
         coarse: bool,
@@ -226,12 +223,6 @@ impl Axis {
         to.known &= sum == 0.0 || self.noise.is_known();
         to.unexplained += unexplained;
         to.signal += signal;
-    }
-
-    /// The same, for one of several axes.
-    #[inline(never)]
-    pub fn share_misfit(&self, to: &mut Misfit, per_stride: f32) {
-        self.add_misfit(to, per_stride);
     }
 }
 

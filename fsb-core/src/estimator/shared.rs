@@ -112,7 +112,7 @@ impl ObserverClock {
     fn hurry(&mut self, common: &Common) -> Gains {
         self.window.step(&common.observer.window);
         // The very first at once, then in turns with an estimator that has another turn.
-        if self.count < 4 || common.schedule.unhurried || (self.count ^ common.schedule.turn) & 1 == 0 {
+        if self.count < 4 || common.schedule.unhurried || (self.count ^ u32::from(common.schedule.turn != 0)) & 1 == 0 {
             Gains::at(&self.window, &common.observer)
         } else {
             self.gains
@@ -196,12 +196,16 @@ impl IdentifierClock {
         let identifier = &common.identifier;
         let last = common.covariance.steps - 1;
         self.stride = if self.blocks == 0 || self.stride >= last { 0 } else { self.stride + 1 };
-        if self.stride == 0 {
+        let coarse = self.stride == 0;
+        if coarse {
             self.shape.step(&self.window, &common.covariance);
         }
         if !self.settled {
             self.at = Coefficients::at(&self.window, identifier);
-            self.settled = self.window.is_settled();
+            // To be asked now and then.
+            if coarse {
+                self.settled = self.window.is_settled();
+            }
             self.window.step(&identifier.window);
         }
         if common.any_drift {

@@ -1,31 +1,8 @@
 //! Blocks of one sample: every measurement goes through the cascade of its axis, and the rest by turns.
 
-use super::axis::Axis;
-use super::design::Common;
+use super::axis::{Axis, Source};
 use super::identify::SingleRound;
 use super::parts::{Frame, Parts, parameter_of};
-use super::shared::IdentifierClock;
-
-/// The axis whose coarse step it is, counted down from axis to axis.
-struct CoarseTurn {
-    until: u32,
-    apart: u32,
-}
-
-impl CoarseTurn {
-    #[inline(always)]
-    fn new(clock: &IdentifierClock, common: &Common) -> Self {
-        let until = if clock.is_shaped(common) { clock.stride } else { u32::MAX };
-        Self { until, apart: u32::from(common.schedule.staggered) }
-    }
-
-    /// Whether it is the next axis's.
-    #[inline(always)]
-    fn next(&mut self) -> bool {
-        self.until = self.until.wrapping_sub(self.apart);
-        self.until == 0
-    }
-}
 
 impl Parts<'_> {
     /// [`Pace::Singles`](super::shared::Pace::Singles).
@@ -44,15 +21,15 @@ impl Parts<'_> {
         let clock = &mut progress.identifier;
         clock.step(common);
         let round = SingleRound::new(clock, common);
-        let mut coarse = CoarseTurn::new(clock, common);
-        let of_next = usize::from(self.parameters.len() != 1);
-        let mut of = 0;
+        // One for each axis, or one for all.
+        let mut others = self.parameters.iter_mut();
+        let Some(mut parameter) = others.next() else { return };
         for (axis, &mut y) in axes.iter_mut().zip(y) {
-            let Some(parameter) = self.parameters.get_mut(of) else { break };
             axis.observe(y, m1, t_l2);
-            let z2 = axis.step_single(y, &round);
-            axis.read_out(z2, coarse.next(), clock, parameter, common);
-            of += of_next;
+            axis.identify_single(y, &round, parameter, common);
+            if let Some(next) = others.next() {
+                parameter = next;
+            }
         }
         self.take_turns_of_singles();
     }
@@ -68,52 +45,94 @@ impl Parts<'_> {
             return self.take_turns_of_singles();
         }
         let round = SingleRound::new(clock, common);
-        let mut coarse = CoarseTurn::new(clock, common);
         for (index, axis) in axes.iter_mut().enumerate() {
-            let coarse = coarse.next();
             if axis.takes_part()
                 && let Some(parameter) = self.parameters.get_mut(parameter_of(index, self.parameters))
             {
-                axis.identify_single(&round, coarse, clock, parameter, common);
+                // The window is zero in the first two samples; a prediction says nothing that was not known.
+                let y = axis.observer.measurement();
+                if axis.missed == 0 && clock.blocks > 2 {
+                    axis.identify_single(y, &round, parameter, common);
+                } else {
+                    axis.step_single(y, &round);
+                }
             }
         }
         self.take_turns_of_singles();
+        self.frame.axes.iter_mut().for_each(|axis| axis.missed = 0);
     }
 
     #[inline(always)]
     fn take_turns_of_singles(&mut self) {
+        let Frame { common, progress, axes } = &*self.frame;
+        // The axis that takes its coarse step, or the first of them.
+        let staggered = common.schedule.staggered;
+        let coarse = progress.identifier.stride.wrapping_sub(staggered.into()) as usize;
+        if coarse < if staggered { axes.len() } else { 1 } && progress.identifier.is_shaped(common) {
+            self.step_singles_coarsely(coarse);
+        }
         let Frame { common, progress, .. } = &mut *self.frame;
         let position = progress.identifier.position;
-        progress.identifier.position = (position + 1) & 7;
+        progress.identifier.position = (position + 1) & (common.schedule.round - 1);
         if common.schedule.events.wrapping_shr(position) & 1 == 1 {
             self.take_turn_of_single(position);
+        }
+    }
+
+    /// The coarse step of an axis, or of all of them where they do not take them one after the other.
+    #[inline(never)]
+    fn step_singles_coarsely(&mut self, mut index: usize) {
+        let Frame { common, progress, axes } = &mut *self.frame;
+        loop {
+            let of = parameter_of(index, self.parameters);
+            let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) else { return };
+            if axis.present && axis.missed == 0 {
+                axis.step_coarsely(&progress.identifier, parameter, common);
+            }
+            if common.schedule.staggered {
+                return;
+            }
+            index += 1;
         }
     }
 
     #[inline(never)]
     fn take_turn_of_single(&mut self, position: u32) {
         let schedule = &self.frame.common.schedule;
-        let gains_turn = position == schedule.gains_at;
-        if schedule.unhurried {
+        let (half, reads_turn) = (schedule.gains_every, position == u32::from(schedule.reads_at));
+        if position & (half - 1) == 0 {
+            self.turn_gains();
+        }
+        if self.frame.common.schedule.unhurried {
             self.serve_all_singles();
         } else {
-            self.serve_single(position as usize);
-        }
-        if gains_turn {
-            self.turn_gains();
+            if reads_turn && self.parameters.len() == 1 {
+                self.read_variance(0);
+            }
+            let before = position.wrapping_sub(1);
+            self.serve_single((before & (half - 1)) as usize, before & half != 0);
         }
     }
 
-    /// An axis's turn where blocks are single samples.
+    /// An axis's turn where blocks are single samples: in the second half of a round, and in the first one as well when its
+    /// parameter is becoming valid.
     #[inline(always)]
-    fn serve_single(&mut self, index: usize) {
+    fn serve_single(&mut self, index: usize, regularly: bool) {
         let Frame { common, axes, .. } = &mut *self.frame;
         let of = parameter_of(index, self.parameters);
+        let pooled = self.parameters.len() == 1;
         if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
-            axis.fold_single();
-            if parameter.stale || !axis.follow_on(parameter, common) {
-                self.serve_carefully(index, true);
+            let mut due = false;
+            if regularly {
+                axis.fold_single();
+                due = parameter.stale && !pooled;
+                if !due && axis.follow_on(parameter, common) {
+                    return;
+                }
+            } else if axis.source == Source::Identified || !parameter.may_be_valid() {
+                return;
             }
+            self.serve_carefully(index, due);
         }
     }
 

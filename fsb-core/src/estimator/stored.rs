@@ -86,9 +86,8 @@ impl<const N: usize, const P: usize> Whole for Estimator<N, P> {
     fn is_sound(&self) -> bool {
         let common = &self.frame.common;
         let progress = &self.frame.progress;
-        let round = if common.block_length == 1 { 8 } else { common.block_length };
         let clocks = progress.substep <= common.substeps
-            && progress.identifier.position < round
+            && progress.identifier.position < common.schedule.round
             && progress.observer.count <= LONG_AGO + 65_536
             && progress.observer.is_sound()
             && progress.identifier.is_sound();

@@ -1,6 +1,6 @@
 //! k with its variance, and the rule by which it may be used.
 
-use super::ratio::Ratio;
+use super::ratio::{Ratio, Readout};
 use super::status::ParameterStatus;
 use crate::accumulator::Accumulator;
 use crate::checks::{Checks, Range, Rule, rule};
@@ -163,6 +163,13 @@ impl ParameterState {
             nominal,
             rule,
         }
+    }
+
+    /// Adds a sample to the sums, whatever the read-out.
+    #[cold]
+    #[inline(never)]
+    pub fn add_generally(&mut self, z2: f32, z0: f32, readout: Readout, forgetting: f32) {
+        self.ratio.add(readout, z2, z0, forgetting);
     }
 
     /// Forgets what is known.
@@ -363,6 +370,15 @@ impl ParameterState {
             self.value = value;
         }
         stays
+    }
+
+    /// Whether [`read`](Self::read) would find it valid; also said where it takes a closer look to tell.
+    #[inline(never)]
+    pub fn may_be_valid(&self) -> bool {
+        let (rule, value) = (&self.rule, self.ratio.quotient());
+        let limit = rule.relative_variance * (value * value);
+        let found = value >= rule.min && value <= rule.max && self.variance <= limit && !self.contradicted;
+        found || self.status as u8 >= ParameterStatus::Valid as u8
     }
 
     /// The quotient from the sums as they are, and its status.
