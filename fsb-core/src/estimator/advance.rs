@@ -41,19 +41,24 @@ impl Parts<'_> {
     /// The general way.
     #[inline(never)]
     pub fn advance(&mut self, y: &mut [f32]) {
-        let Frame { common, progress, .. } = &mut *self.frame;
+        let Frame { common, progress, axes } = &mut *self.frame;
         let limit = common.position_limit;
         let complete = y.iter().all(|y| y.abs() <= limit);
-        if !progress.started {
-            if complete {
-                self.start(y);
-            } else {
-                self.count_missing(y);
+        let m1 = progress.observer.gains.m1();
+        let mut gains = progress.observer.gains;
+        if progress.started {
+            gains = progress.observer.next(common);
+        } else if complete {
+            // The first instant.
+            (progress.started, progress.all_measured) = (true, true);
+            let settled_at = common.state_settle.max(1);
+            for (axis, &mut y) in axes.iter_mut().zip(y.iter_mut()) {
+                axis.measure_first(y, settled_at);
             }
+        } else {
+            self.count_missing(y);
             return;
         }
-        let m1 = progress.observer.gains.m1();
-        let gains = progress.observer.next(common);
         progress.substep = 0;
         if !(progress.all_measured && complete) {
             self.count_missing(y);
@@ -72,24 +77,8 @@ impl Parts<'_> {
         self.identify(identifying, complete);
     }
 
-    /// The first instant at which every axis is measured.
-    #[inline(never)]
-    fn start(&mut self, y: &[f32]) {
-        let Frame { common, progress, axes } = &mut *self.frame;
-        (progress.started, progress.all_measured, progress.substep) = (true, true, 0);
-        let settled_at = common.state_settle.max(1);
-        let Gains { m1, t_l2 } = Gains::FIRST;
-        for (axis, &y) in axes.iter_mut().zip(y) {
-            axis.measure_first(y, settled_at);
-            axis.observe(y, m1, t_l2);
-        }
-        // No block has begun before.
-        let identifying = progress.is_identifying();
-        self.identify(identifying, true);
-    }
-
     /// The identifier's part of an instant at which every axis was measured, if it is `complete`.
-    #[inline(never)]
+    #[inline(always)]
     fn identify(&mut self, identifying: bool, complete: bool) {
         let Frame { common, progress, .. } = &mut *self.frame;
         if identifying && common.block_length > 1 {

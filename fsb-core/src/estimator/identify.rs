@@ -72,10 +72,9 @@ impl Axis {
         self.cascade.z2() - self.own.drift * round.zu
     }
 
-    /// The same, and into the parameter's sums. The coarse step comes after all axes.
+    /// What it led to, into the parameter's sums. The coarse step comes after all axes.
     #[inline(always)]
-    pub fn identify_single(&mut self, y: f32, round: &SingleRound, parameter: &mut ParameterState, common: &Common) {
-        let z2 = self.step_single(y, round);
+    pub fn add_single(&self, z2: f32, parameter: &mut ParameterState, common: &Common) {
         let z0 = self.cascade.z0();
         if common.plain {
             parameter.ratio.add_plain(z2, z0);
@@ -90,7 +89,7 @@ impl Axis {
         if Ratio::is_informative(z0) {
             self.coarse_step(z2, z0, clock, parameter, common);
         } else {
-            parameter.step_coarsely(&CoarseStep::default(), 0.0);
+            parameter.skip_coarse_step();
         }
     }
 
@@ -114,7 +113,7 @@ impl Axis {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         } else if coarse {
-            parameter.step_coarsely(&CoarseStep::default(), 0.0);
+            parameter.skip_coarse_step();
         }
     }
 
@@ -128,13 +127,12 @@ impl Axis {
         common: &Common,
     ) {
         let z0 = self.cascade.z0();
-        if parameter.ratio.add(common.readout, z2, z0, common.forgetting) {
+        if parameter.add_generally(z2, z0, common.readout, common.forgetting) {
             if coarse {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         } else if coarse {
-            // Nothing to add: those that share the parameter do not wait for this axis.
-            parameter.step_coarsely(&CoarseStep::default(), 0.0);
+            parameter.skip_coarse_step();
         }
     }
 

@@ -6,7 +6,7 @@ use crate::identifier::{Coefficients, UnitChain};
 use crate::observer::Gains;
 use crate::readout::NoiseShape;
 use crate::snapshot::stored;
-use crate::window::Window;
+use crate::window::{Window, WindowDesign};
 
 /// The way that the next measurement goes, if every axis is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,13 +110,17 @@ impl ObserverClock {
 
     /// The gains of the next of the first measurements.
     fn hurry(&mut self, common: &Common) -> Gains {
-        self.window.step(&common.observer.window);
         // The very first at once, then in turns with an estimator that has another turn.
-        if self.count < 4 || common.schedule.unhurried || (self.count ^ u32::from(common.schedule.turn != 0)) & 1 == 0 {
-            Gains::at(&self.window, &common.observer)
-        } else {
-            self.gains
-        }
+        let schedule = &common.schedule;
+        let anew = self.count < 4 || schedule.unhurried || (self.count ^ u32::from(schedule.turn != 0)) & 1 == 0;
+        self.move_on(&common.observer.window, anew, common)
+    }
+
+    /// Moves the window, and returns the gains there or those so far.
+    #[inline(never)]
+    fn move_on(&mut self, by: &WindowDesign, anew: bool, common: &Common) -> Gains {
+        self.window.step(by);
+        if anew { Gains::at(&self.window, &common.observer) } else { self.gains }
     }
 
     /// At the gains' turn: from now on they stride.
@@ -125,11 +129,9 @@ impl ObserverClock {
     }
 
     /// New gains for the measurements to come.
-    #[inline(never)]
     pub fn renew(&mut self, common: &Common) {
         if !self.window.is_settled() {
-            self.window.step(&common.observer_stride);
-            self.gains = Gains::at(&self.window, &common.observer);
+            self.gains = self.move_on(&common.observer_stride, true, common);
         }
     }
 
@@ -196,16 +198,12 @@ impl IdentifierClock {
         let identifier = &common.identifier;
         let last = common.covariance.steps - 1;
         self.stride = if self.blocks == 0 || self.stride >= last { 0 } else { self.stride + 1 };
-        let coarse = self.stride == 0;
-        if coarse {
+        if self.stride == 0 {
             self.shape.step(&self.window, &common.covariance);
         }
         if !self.settled {
             self.at = Coefficients::at(&self.window, identifier);
-            // To be asked now and then.
-            if coarse {
-                self.settled = self.window.is_settled();
-            }
+            self.settled = self.window.is_settled();
             self.window.step(&identifier.window);
         }
         if common.any_drift {

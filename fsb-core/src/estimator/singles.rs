@@ -26,7 +26,8 @@ impl Parts<'_> {
         let Some(mut parameter) = others.next() else { return };
         for (axis, &mut y) in axes.iter_mut().zip(y) {
             axis.observe(y, m1, t_l2);
-            axis.identify_single(y, &round, parameter, common);
+            let z2 = axis.step_single(y, &round);
+            axis.add_single(z2, parameter, common);
             if let Some(next) = others.next() {
                 parameter = next;
             }
@@ -40,22 +41,24 @@ impl Parts<'_> {
         let Frame { common, progress, axes } = &mut *self.frame;
         let clock = &mut progress.identifier;
         clock.step(common);
-        if clock.blocks == 1 {
-            axes.iter_mut().for_each(Axis::take_first_single);
-            return self.take_turns_of_singles();
-        }
         let round = SingleRound::new(clock, common);
         for (index, axis) in axes.iter_mut().enumerate() {
-            if axis.takes_part()
-                && let Some(parameter) = self.parameters.get_mut(parameter_of(index, self.parameters))
+            let of = parameter_of(index, self.parameters);
+            if !axis.takes_part() {
+                continue;
+            }
+            if clock.blocks == 1 {
+                // The window is zero, and so is what the cascade makes of the first sample.
+                axis.block.single(0.0, axis.moments);
+                continue;
+            }
+            let z2 = axis.step_single(axis.observer.measurement(), &round);
+            // The window is zero in the first two samples; a prediction says nothing that was not known.
+            if axis.missed == 0
+                && clock.blocks > 2
+                && let Some(parameter) = self.parameters.get_mut(of)
             {
-                // The window is zero in the first two samples; a prediction says nothing that was not known.
-                let y = axis.observer.measurement();
-                if axis.missed == 0 && clock.blocks > 2 {
-                    axis.identify_single(y, &round, parameter, common);
-                } else {
-                    axis.step_single(y, &round);
-                }
+                axis.add_single(z2, parameter, common);
             }
         }
         self.take_turns_of_singles();
@@ -81,18 +84,17 @@ impl Parts<'_> {
 
     /// The coarse step of an axis, or of all of them where they do not take them one after the other.
     #[inline(never)]
-    fn step_singles_coarsely(&mut self, mut index: usize) {
+    fn step_singles_coarsely(&mut self, index: usize) {
         let Frame { common, progress, axes } = &mut *self.frame;
-        loop {
+        let of = if common.schedule.staggered { index..index + 1 } else { 0..axes.len() };
+        for index in of {
             let of = parameter_of(index, self.parameters);
-            let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) else { return };
-            if axis.present && axis.missed == 0 {
+            if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of))
+                && axis.present
+                && axis.missed == 0
+            {
                 axis.step_coarsely(&progress.identifier, parameter, common);
             }
-            if common.schedule.staggered {
-                return;
-            }
-            index += 1;
         }
     }
 
@@ -149,16 +151,7 @@ impl Parts<'_> {
 }
 
 impl Axis {
-    /// The window is zero, and so is what the cascade makes of the first sample.
-    #[inline(always)]
-    fn take_first_single(&mut self) {
-        if self.takes_part() {
-            self.block.single(0.0, self.moments);
-            self.missed = 0;
-        }
-    }
-
-    #[inline(always)]
+    #[inline(never)]
     fn fold_single(&mut self) {
         self.observer.fold();
         self.cascade.fold();

@@ -165,11 +165,11 @@ impl ParameterState {
         }
     }
 
-    /// Adds a sample to the sums, whatever the read-out.
+    /// Adds a sample to the sums, whatever the read-out; returns whether it held any information.
     #[cold]
     #[inline(never)]
-    pub fn add_generally(&mut self, z2: f32, z0: f32, readout: Readout, forgetting: f32) {
-        self.ratio.add(readout, z2, z0, forgetting);
+    pub fn add_generally(&mut self, z2: f32, z0: f32, readout: Readout, forgetting: f32) -> bool {
+        self.ratio.add(readout, z2, z0, forgetting)
     }
 
     /// Forgets what is known.
@@ -251,6 +251,13 @@ impl ParameterState {
             self.stepped = 0;
             self.stale = true;
         }
+    }
+
+    /// A coarse step of one of its axes that says nothing: those that share the parameter do not wait for it.
+    #[cold]
+    #[inline(never)]
+    pub fn skip_coarse_step(&mut self) {
+        self.step_coarsely(&CoarseStep::default(), 0.0);
     }
 
     /// The newest quotient, where it is in range and its standard deviation is below its value.
