@@ -160,13 +160,16 @@ impl Parts<'_> {
     /// Variances, weights, gains.
     #[inline(never)]
     fn take_shared_turns(&mut self, begins: u32) {
-        let schedule = &self.frame.common.schedule;
-        let (reads, weighs) = (begins == u32::from(schedule.reads_at), begins == u32::from(schedule.weights_at));
-        if reads {
-            self.read_variances(0);
-        }
-        if weighs && self.frame.common.schedule.reads_at != Schedule::NEVER {
-            self.read_variances(1);
+        let Frame { common, progress, .. } = &mut *self.frame;
+        let schedule = &common.schedule;
+        let weighs = begins == u32::from(schedule.weights_at);
+        let of = 2 * progress.identifier.stride as usize + usize::from(weighs);
+        let reads = weighs && schedule.reads_at != Schedule::NEVER || begins == u32::from(schedule.reads_at);
+        if reads && of < self.parameters.len() {
+            // All of them at the two opportunities of a block, or of several; none in the block before the next coarse step: what
+            // it leads to would come with that step.
+            let opportunities = 2 * common.covariance.steps.saturating_sub(1).max(1);
+            self.read_variances(of, opportunities as usize);
         }
         let Frame { common, progress, .. } = &mut *self.frame;
         let schedule = &common.schedule;
@@ -223,7 +226,7 @@ impl Parts<'_> {
     pub fn serve_carefully(&mut self, index: usize, read: bool) {
         let of = parameter_of(index, self.parameters);
         if read {
-            self.read_variance(of);
+            self.read_variances(of, self.parameters.len());
         }
         let Frame { common, progress, axes } = &mut *self.frame;
         let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) else { return };
@@ -233,27 +236,19 @@ impl Parts<'_> {
         axis.follow(parameter, clocks, common);
     }
 
-    /// The variances that are due, some at each of the two opportunities of a block; none in the block before the next coarse
-    /// step: what it leads to would come with that step.
-    #[inline(always)]
-    fn read_variances(&mut self, opportunity: usize) {
-        let (clock, steps) = (&self.frame.progress.identifier, self.frame.common.covariance.steps as usize);
-        let mut of = 2 * clock.stride as usize + opportunity;
-        while of < self.parameters.len() {
-            self.read_variance(of);
-            of += 2 * steps.saturating_sub(1).max(1);
-        }
-    }
-
-    /// The variance of a parameter, if it is due.
+    /// The variances that are due, of the parameter `of` and of every `step`-th one after it.
     #[inline(never)]
-    pub fn read_variance(&mut self, of: usize) {
-        let Frame { common, axes, .. } = &mut *self.frame;
-        let whose = if self.parameters.len() == 1 { 0..axes.len() } else { of..of + 1 };
-        if let (Some(whose), Some(parameter)) = (axes.get(whose), self.parameters.get_mut(of))
-            && parameter.stale
-        {
-            read_variance_of(whose, parameter, common);
+    pub fn read_variances(&mut self, mut of: usize, step: usize) {
+        let Frame { common, axes, .. } = &*self.frame;
+        let pooled = self.parameters.len() == 1;
+        while let Some(parameter) = self.parameters.get_mut(of) {
+            let whose = if pooled { 0..axes.len() } else { of..of + 1 };
+            if parameter.stale
+                && let Some(whose) = axes.get(whose)
+            {
+                read_variance_of(whose, parameter, common);
+            }
+            of += step;
         }
     }
 }

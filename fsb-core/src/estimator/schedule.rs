@@ -23,7 +23,7 @@ pub(super) struct Schedule {
     /// At which measurement of a round the gains are renewed, or where blocks are shorter than there are axes, after which
     /// axis's turn; unused where a round is longer than `gains_every`.
     pub gains_at: u8,
-    /// At which measurement of a block the variances that are due are read; [`NEVER`](Self::NEVER) where there is no room for
+    /// At which measurement of a block the variances that are due are read, others of them with the weights; [`NEVER`](Self::NEVER) where there is no room for
     /// that: they are read at the turn of an axis. Where blocks are single samples, the same for a parameter of several axes.
     pub reads_at: u8,
     /// A bit for each measurement of a round (modulo 32) in which somebody has a turn.
@@ -83,12 +83,12 @@ impl Schedule {
             }
         };
         // The measurement at which the last axis begins and nobody completes, or the next one: that of another estimator with this
-        // many axes is elsewhere. Not after the weights, which count the blocks since the coarse step.
+        // many axes is elsewhere. Before the weights, which count the blocks since the coarse step.
         let reads_at = match block {
             1 => gains_every,
-            _ if block < 2 * (axes + 1) => u32::from(Self::NEVER),
+            _ if block < 2 * (axes + 1) || weights_at < axes => u32::from(Self::NEVER),
             _ if turn == 0 => axes - 1,
-            _ => axes.min(weights_at),
+            _ => axes.min(weights_at - 1),
         };
         let read = if reads_at < 16 { 1 << reads_at } else { 0 };
         let shared = if round > gains_every { u32::MAX } else { 1 << weights_at | 1 << gains_at | read };

@@ -109,6 +109,7 @@ impl ObserverClock {
     }
 
     /// The gains of the next of the first measurements.
+    #[inline(never)]
     fn hurry(&mut self, common: &Common) -> Gains {
         // The very first at once, then in turns with an estimator that has another turn.
         let schedule = &common.schedule;
