@@ -225,7 +225,7 @@ impl Parts<'_> {
     #[inline(never)]
     pub fn serve_carefully(&mut self, index: usize, read: bool) {
         let of = parameter_of(index, self.parameters);
-        if read {
+        if read && self.parameters.get(of).is_some_and(|parameter| parameter.stale) {
             self.read_variances(of, self.parameters.len());
         }
         let Frame { common, progress, axes } = &mut *self.frame;

@@ -81,13 +81,14 @@ impl Axis {
     }
 
     /// To be called when the source, `settled_at` or `measured` has changed.
+    #[inline(never)]
     pub fn decide_use(&mut self) {
         let usable = self.measured && matches!(self.source, Source::Identified | Source::Held | Source::Nominal);
         self.usable_at = if usable { self.settled_at } else { u32::MAX };
     }
 
-    /// The first measurement of an estimator.
-    #[inline(always)]
+    /// The first measurement, or the first one after the axis was lost.
+    #[inline(never)]
     pub fn measure_first(&mut self, y: f32, settled_at: u32) {
         self.measured = true;
         self.settled_at = settled_at;

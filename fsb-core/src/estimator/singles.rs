@@ -105,30 +105,29 @@ impl Parts<'_> {
         if position & (half - 1) == 0 {
             self.turn_gains();
         }
-        let pooled = self.parameters.len() == 1;
         if self.frame.common.schedule.unhurried {
-            // There is time enough for all.
-            (0..self.frame.axes.len()).for_each(|index| self.serve_single(index, true, true));
+            self.serve_all_singles();
         } else {
-            if reads_turn && pooled {
+            if reads_turn && self.parameters.len() == 1 {
                 self.read_variances(0, 1);
             }
             let before = position.wrapping_sub(1);
-            self.serve_single((before & (half - 1)) as usize, before & half != 0, !pooled);
+            self.serve_single((before & (half - 1)) as usize, before & half != 0);
         }
     }
 
     /// An axis's turn where blocks are single samples: in the second half of a round, and in the first one as well when its
-    /// parameter is becoming valid. Whether the variance is read then, if it is due.
-    #[inline(never)]
-    fn serve_single(&mut self, index: usize, regularly: bool, reads: bool) {
+    /// parameter is becoming valid.
+    #[inline(always)]
+    fn serve_single(&mut self, index: usize, regularly: bool) {
         let Frame { common, axes, .. } = &mut *self.frame;
         let of = parameter_of(index, self.parameters);
+        let pooled = self.parameters.len() == 1;
         if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
             let mut due = false;
             if regularly {
                 axis.fold_single();
-                due = parameter.stale && reads;
+                due = parameter.stale && !pooled;
                 if !due && axis.follow_on(parameter, common) {
                     return;
                 }
@@ -138,10 +137,21 @@ impl Parts<'_> {
             self.serve_carefully(index, due);
         }
     }
+
+    /// All axes, where there is time enough.
+    #[inline(never)]
+    fn serve_all_singles(&mut self) {
+        for index in 0..self.frame.axes.len() {
+            if let Some(axis) = self.frame.axes.get_mut(index) {
+                axis.fold_single();
+            }
+            self.serve_carefully(index, true);
+        }
+    }
 }
 
 impl Axis {
-    #[inline(always)]
+    #[inline(never)]
     fn fold_single(&mut self) {
         self.observer.fold();
         self.cascade.fold();

@@ -246,18 +246,17 @@ impl ParameterState {
             let weight = step.weight * per_information;
             self.disturbance = known(before * before * self.disturbance + weight * weight * step.disturbance);
         }
+        self.skip_coarse_step();
+    }
+
+    /// A coarse step of one of its axes that says nothing: those that share the parameter do not wait for it.
+    #[inline(always)]
+    pub fn skip_coarse_step(&mut self) {
         self.stepped = self.stepped.saturating_add(1);
         if self.stepped >= self.members {
             self.stepped = 0;
             self.stale = true;
         }
-    }
-
-    /// A coarse step of one of its axes that says nothing: those that share the parameter do not wait for it.
-    #[cold]
-    #[inline(never)]
-    pub fn skip_coarse_step(&mut self) {
-        self.step_coarsely(&CoarseStep::default(), 0.0);
     }
 
     /// The newest quotient, where it is in range and its standard deviation is below its value.
