@@ -151,7 +151,10 @@ impl Parts<'_> {
             // Where there is no room for the variance elsewhere, it is read when the next block ends.
             let coarse = progress.identifier.stride == 0 && common.covariance.steps > 1;
             let due = parameter.stale && !coarse && common.schedule.reads_at == Schedule::NEVER;
-            if due || !axis.follow_on(parameter, common) && (!coarse || axis.has_more_to_do(parameter)) {
+            if due
+                || !axis.follow_on(parameter, common)
+                    && (!coarse || axis.has_more_to_do(parameter, progress.is_settled(common)))
+            {
                 self.serve_carefully(index, due);
             }
         }
@@ -230,8 +233,7 @@ impl Parts<'_> {
         }
         let Frame { common, progress, axes } = &mut *self.frame;
         let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) else { return };
-        let settled = progress.observer.count - progress.identifier.began >= common.parameter_settle;
-        parameter.read(settled);
+        parameter.read(progress.is_settled(common));
         let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };
         axis.follow(parameter, clocks, common);
     }

@@ -81,14 +81,13 @@ impl Axis {
     }
 
     /// To be called when the source, `settled_at` or `measured` has changed.
-    #[inline(never)]
     pub fn decide_use(&mut self) {
         let usable = self.measured && matches!(self.source, Source::Identified | Source::Held | Source::Nominal);
         self.usable_at = if usable { self.settled_at } else { u32::MAX };
     }
 
     /// The first measurement, or the first one after the axis was lost.
-    #[inline(never)]
+    #[inline(always)]
     pub fn measure_first(&mut self, y: f32, settled_at: u32) {
         self.measured = true;
         self.settled_at = settled_at;
@@ -161,8 +160,8 @@ impl Axis {
     /// Where [`follow_on`](Self::follow_on) did not do: whether there is more to it than a parameter that is not valid and stays
     /// so, which may wait for the next turn.
     #[inline(always)]
-    pub fn has_more_to_do(&self, parameter: &ParameterState) -> bool {
-        self.source == Source::Identified || parameter.may_be_valid()
+    pub fn has_more_to_do(&self, parameter: &ParameterState, settled: bool) -> bool {
+        self.source == Source::Identified || parameter.may_be_valid(settled)
     }
 
     /// Settles what predicts this axis, and puts the observer where the identifier's own states say it is when the

@@ -69,6 +69,12 @@ impl Progress {
         self.observer.gains.t_l2()
     }
 
+    /// Whether ε of the parameter has passed.
+    #[inline(always)]
+    pub fn is_settled(&self, common: &Common) -> bool {
+        self.observer.count - self.identifier.began >= common.parameter_settle
+    }
+
     /// Whether this measurement is the identifier's as well.
     #[inline(always)]
     pub fn is_identifying(&self) -> bool {

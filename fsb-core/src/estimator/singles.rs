@@ -39,8 +39,9 @@ impl Parts<'_> {
     #[inline(never)]
     pub fn take_singles(&mut self) {
         let Frame { common, progress, axes } = &mut *self.frame;
-        let clock = &mut progress.identifier;
-        clock.step(common);
+        progress.identifier.step(common);
+        let settled = progress.is_settled(common);
+        let clock = &progress.identifier;
         let round = SingleRound::new(clock, common);
         for (index, axis) in axes.iter_mut().enumerate() {
             let of = parameter_of(index, self.parameters);
@@ -50,6 +51,9 @@ impl Parts<'_> {
             if clock.blocks == 1 {
                 // The window is zero, and so is what the cascade makes of the first sample.
                 axis.block.single(0.0, axis.moments);
+                if settled && let Some(parameter) = self.parameters.get_mut(of) {
+                    parameter.read(settled);
+                }
                 continue;
             }
             let z2 = axis.step_single(axis.observer.measurement(), &round);
@@ -120,7 +124,8 @@ impl Parts<'_> {
     /// parameter is becoming valid.
     #[inline(always)]
     fn serve_single(&mut self, index: usize, regularly: bool) {
-        let Frame { common, axes, .. } = &mut *self.frame;
+        let Frame { common, progress, axes } = &mut *self.frame;
+        let settled = progress.is_settled(common);
         let of = parameter_of(index, self.parameters);
         let pooled = self.parameters.len() == 1;
         if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
@@ -131,7 +136,7 @@ impl Parts<'_> {
                 if !due && axis.follow_on(parameter, common) {
                     return;
                 }
-            } else if axis.source == Source::Identified || !parameter.may_be_valid() {
+            } else if axis.source == Source::Identified || !parameter.may_be_valid(settled) {
                 return;
             }
             self.serve_carefully(index, due);

@@ -378,13 +378,14 @@ impl ParameterState {
         stays
     }
 
-    /// Whether [`read`](Self::read) would find it valid; also said where it takes a closer look to tell.
+    /// Whether [`read`](Self::read) would find it valid, or no longer settling; also said where it takes a closer look to tell.
     #[inline(never)]
-    pub fn may_be_valid(&self) -> bool {
+    pub fn may_be_valid(&self, settled: bool) -> bool {
         let (rule, value) = (&self.rule, self.ratio.quotient());
         let limit = rule.relative_variance * (value * value);
         let found = value >= rule.min && value <= rule.max && self.variance <= limit && !self.contradicted;
-        found || self.status as u8 >= ParameterStatus::Valid as u8
+        let settles = settled && self.status == ParameterStatus::Settling;
+        found || settles || self.status as u8 >= ParameterStatus::Valid as u8
     }
 
     /// The quotient from the sums as they are, and its status.
