@@ -33,7 +33,7 @@ impl LoopConfig {
         translation.nominal = [Some(1.0 / mass)];
         let mut rotation = EstimatorConfig::new(period);
         rotation.block = 10;
-        rotation.turn = 3;
+        rotation.turn = 4;
         rotation.identifier = Tuning::from_lambda(4.0);
         rotation.observer = Tuning::from_lambda(20.0);
         rotation.nominal = inertia.map(|i| Some(1.0 / i));

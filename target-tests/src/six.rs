@@ -31,7 +31,8 @@ pub fn configs(block: u32, substeps: u32) -> (EstimatorConfig<3, 1>, EstimatorCo
     let mut rotation = EstimatorConfig::new(1e-3);
     rotation.block = block;
     rotation.substeps = substeps;
-    rotation.turn = 3 % block;
+    // What the configuration recommends for the second of two estimators of three axes, where a block has room for both.
+    rotation.turn = if block == 1 || block >= 8 { 4 } else { 3 % block };
     rotation.identifier = Tuning::from_lambda(4.0);
     rotation.observer = Tuning::from_lambda(20.0);
     rotation.nominal = [Some(50.0); 3];

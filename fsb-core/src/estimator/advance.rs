@@ -1,38 +1,38 @@
 //! What a measurement instant does: the observers, the blocks, and whoever has a turn.
 
 use super::Estimator;
-use super::axis::Clocks;
-use super::identify::{Misfit, SingleRound};
-use super::output::Learning;
+use super::axis::{Axis, Clocks};
+use super::design::Common;
+use super::identify::Misfit;
 use super::parts::{Frame, Parts, parameter_of};
+use super::schedule::Schedule;
+use super::shared::Pace;
 use crate::identifier::BlockMeans;
+use crate::observer::Gains;
+use crate::readout::ParameterState;
 
 /// Counts of measurements are kept below about this: three days at 8 kHz.
 pub(super) const LONG_AGO: u32 = 1 << 31;
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
-    /// The quick way: everybody measured, gains that hardly change.
+    /// [`Pace::Steady`], and [`Pace::Hurried`].
     #[inline(always)]
-    pub(super) fn advance_steadily(&mut self, y: &[f32; N]) {
+    pub(super) fn advance_steadily(&mut self, y: &[f32; N], pace: Pace) {
         let Frame { common, progress, axes } = &mut self.frame;
         progress.observer.tick();
         progress.substep = 0;
-        let gains = progress.observer.gains;
-        if common.block_length == 1 {
-            for (axis, &y) in axes.iter_mut().zip(y) {
-                axis.observe(y, gains.m1(), gains.t_l2());
-            }
-            self.parts().take_singles();
-        } else {
-            for (axis, &y) in axes.iter_mut().zip(y) {
-                axis.observe(y, gains.m1(), gains.t_l2());
-                axis.sample(y);
-            }
-            let position = progress.identifier.position;
-            let next = progress.identifier.move_on(common);
-            if common.schedule.events.wrapping_shr(position) & 1 == 1 {
-                self.parts().take_turns(position, next);
-            }
+        let Gains { m1, mut t_l2 } = progress.observer.gains;
+        if pace == Pace::Hurried {
+            t_l2 = progress.hurry_on(common);
+        }
+        for (axis, &y) in axes.iter_mut().zip(y) {
+            axis.observe(y, m1, t_l2);
+            axis.sample(y);
+        }
+        let position = progress.identifier.position;
+        let next = progress.identifier.move_on(common);
+        if common.schedule.events.wrapping_shr(position) & 1 == 1 {
+            self.parts().take_turns(position, next);
         }
     }
 }
@@ -41,22 +41,24 @@ impl Parts<'_> {
     /// The general way.
     #[inline(never)]
     pub fn advance(&mut self, y: &mut [f32]) {
-        let Frame { common, progress, .. } = &mut *self.frame;
+        let Frame { common, progress, axes } = &mut *self.frame;
         let limit = common.position_limit;
         let complete = y.iter().all(|y| y.abs() <= limit);
-        if !progress.started && !complete {
-            self.count_missing(y);
-            return;
-        }
         let m1 = progress.observer.gains.m1();
         let mut gains = progress.observer.gains;
         if progress.started {
-            progress.observer.tick();
-            if !progress.observer.striding {
-                gains = progress.observer.next(common);
+            gains = progress.observer.next(common);
+        } else if complete {
+            // The first instant.
+            (progress.started, progress.all_measured) = (true, true);
+            let settled_at = common.state_settle.max(1);
+            for (axis, &mut y) in axes.iter_mut().zip(y.iter_mut()) {
+                axis.measure_first(y, settled_at);
             }
+        } else {
+            self.count_missing(y);
+            return;
         }
-        progress.started = true;
         progress.substep = 0;
         let mut back = false;
         if !(progress.all_measured && complete) {
@@ -65,15 +67,22 @@ impl Parts<'_> {
         }
         let Frame { common, progress, axes } = &mut *self.frame;
         progress.observer.gains = gains;
-        let identifying = progress.observer.count >= progress.identifier.began && progress.learning == Learning::On;
+        let identifying = progress.is_identifying();
         let in_block = identifying && common.block_length > 1;
         for (axis, &y) in axes.iter_mut().zip(y.iter()) {
             axis.observe(y, m1, gains.t_l2());
-        }
-        if in_block {
-            for (axis, &y) in axes.iter_mut().zip(y.iter()) {
+            if in_block {
                 axis.sample(y);
             }
+        }
+        self.identify(identifying, complete, back);
+    }
+
+    /// The identifier's part of an instant at which every axis was measured, if it is `complete`, and one is `back` from a gap, if so.
+    #[inline(always)]
+    fn identify(&mut self, identifying: bool, complete: bool, back: bool) {
+        let Frame { common, progress, .. } = &mut *self.frame;
+        if identifying && common.block_length > 1 {
             let position = progress.identifier.position;
             let next = progress.identifier.move_on(common);
             self.take_turns(position, next);
@@ -87,82 +96,16 @@ impl Parts<'_> {
             self.turn_gains();
             self.fold_observers();
         }
-        let progress = &mut self.frame.progress;
-        progress.steady = complete && progress.all_measured && progress.observer.striding && identifying;
-    }
-
-    /// Blocks of one sample.
-    #[inline(never)]
-    fn take_singles(&mut self) {
         let Frame { common, progress, axes } = &mut *self.frame;
-        let schedule = &common.schedule;
-        let clock = &mut progress.identifier;
-        clock.step(common);
-        let round =
-            SingleRound { stage: common.identifier.stage(), at: clock.at, zu: clock.unit.zu(), open: clock.blocks > 2 };
-        // The axis that takes its coarse step, and how far that is from one axis to the next.
-        let apart = u32::from(schedule.staggered);
-        let mut until = if clock.is_shaped(common) { clock.stride } else { u32::MAX };
-        until = until.wrapping_sub(apart);
-        let of_next = usize::from(self.parameters.len() != 1);
-        let mut of = 0;
-        for axis in axes.iter_mut() {
-            if axis.takes_part()
-                && let Some(parameter) = self.parameters.get_mut(of)
-            {
-                axis.identify_single(&round, until == 0, clock, parameter, common);
-            }
-            of += of_next;
-            until = until.wrapping_sub(apart);
-        }
-        let position = progress.identifier.position;
-        progress.identifier.position = (position + 1) & 7;
-        let gains_turn = position == schedule.gains_at;
-        if schedule.unhurried {
-            self.serve_all_singles();
+        progress.pace = if !(complete && progress.all_measured && identifying) {
+            Pace::Careful
+        } else if common.block_length > 1 {
+            if progress.observer.striding { Pace::Steady } else { Pace::Hurried }
         } else {
-            self.serve_single(position as usize);
-        }
-        if gains_turn {
-            self.turn_gains();
-        }
-    }
-
-    /// What fell to samples that were missing.
-    #[inline(never)]
-    fn make_up(&mut self) {
-        let Frame { common, progress, axes } = &mut *self.frame;
-        for (index, axis) in axes.iter_mut().enumerate() {
-            if let Some(parameter) = self.parameters.get_mut(parameter_of(index, self.parameters)) {
-                axis.make_up(&progress.identifier, parameter, common);
-            }
-        }
-    }
-
-    /// An axis's turn where blocks are single samples.
-    #[inline(always)]
-    fn serve_single(&mut self, index: usize) {
-        let Frame { common, axes, .. } = &mut *self.frame;
-        let of = parameter_of(index, self.parameters);
-        if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
-            axis.observer.fold();
-            axis.cascade.fold();
-            if parameter.stale || !axis.follow_on(parameter, common) {
-                self.serve_carefully(index, true);
-            }
-        }
-    }
-
-    /// All axes, where there is time enough.
-    #[inline(never)]
-    fn serve_all_singles(&mut self) {
-        for index in 0..self.frame.axes.len() {
-            if let Some(axis) = self.frame.axes.get_mut(index) {
-                axis.observer.fold();
-                axis.cascade.fold();
-            }
-            self.serve_carefully(index, true);
-        }
+            // The window is zero in the first two samples.
+            let open = progress.identifier.blocks >= 2;
+            if open && axes.iter().all(|axis| axis.present) { Pace::Singles } else { Pace::Careful }
+        };
     }
 
     /// The turns within a block of several samples: `begins` is the axis that has just taken the first one of a block,
@@ -190,20 +133,14 @@ impl Parts<'_> {
 
     #[inline(never)]
     fn turn(&mut self, begins: u32, completes: u32) {
-        let Frame { common, progress, axes } = &mut *self.frame;
-        let schedule = &common.schedule;
-        if begins == schedule.weights_at {
-            progress.identifier.step(common);
+        if self.frame.common.schedule.shared.wrapping_shr(begins) & 1 == 1 {
+            self.take_shared_turns(begins);
         }
+        let Frame { common, progress, axes } = &mut *self.frame;
         if let Some(axis) = axes.get_mut(begins as usize) {
             axis.begin_block(common);
         }
         let index = completes as usize;
-        let gains_turn = if schedule.round > schedule.gains_every {
-            progress.observer.is_due(common)
-        } else {
-            begins == schedule.gains_at
-        };
         let of = parameter_of(index, self.parameters);
         if let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) {
             if axis.present {
@@ -215,20 +152,49 @@ impl Parts<'_> {
             }
             // Sums are folded, the parameter is read, the observer follows.
             axis.observer.fold();
-            // The variance that a coarse step makes due is read when the next block ends, if that one brings none.
+            // Where there is no room for the variance elsewhere, it is read when the next block ends.
             let coarse = progress.identifier.stride == 0 && common.covariance.steps > 1;
-            let due = parameter.stale && !coarse;
-            if due || !axis.follow_on(parameter, common) {
+            let due = parameter.stale && !coarse && common.schedule.reads_at == Schedule::NEVER;
+            if due
+                || !axis.follow_on(parameter, common)
+                    && (!coarse || axis.has_more_to_do(parameter, progress.is_settled(common)))
+            {
                 self.serve_carefully(index, due);
             }
         }
+    }
+
+    /// Variances, weights, gains.
+    #[inline(never)]
+    fn take_shared_turns(&mut self, begins: u32) {
+        let Frame { common, progress, .. } = &mut *self.frame;
+        let schedule = &common.schedule;
+        let weighs = begins == u32::from(schedule.weights_at);
+        let of = 2 * progress.identifier.stride as usize + usize::from(weighs);
+        let reads = weighs && schedule.reads_at != Schedule::NEVER || begins == u32::from(schedule.reads_at);
+        if reads && of < self.parameters.len() {
+            // All of them at the two opportunities of a block, or of several; none in the block before the next coarse step: what
+            // it leads to would come with that step.
+            let opportunities = 2 * common.covariance.steps.saturating_sub(1).max(1);
+            self.read_variances(of, opportunities as usize);
+        }
+        let Frame { common, progress, .. } = &mut *self.frame;
+        let schedule = &common.schedule;
+        if weighs {
+            progress.identifier.step(common);
+        }
+        let gains_turn = if schedule.round > schedule.gains_every {
+            progress.observer.is_due(common)
+        } else {
+            begins == u32::from(schedule.gains_at)
+        };
         if gains_turn {
             self.turn_gains();
         }
     }
 
     #[inline(never)]
-    fn turn_gains(&mut self) {
+    pub fn turn_gains(&mut self) {
         if self.frame.progress.observer.count >= LONG_AGO {
             self.rebase();
         }
@@ -264,25 +230,42 @@ impl Parts<'_> {
 
     /// An axis's turn where the variance has to be `read` or the status or the source of the prediction may change.
     #[inline(never)]
-    fn serve_carefully(&mut self, index: usize, read: bool) {
-        let Frame { common, progress, axes } = &mut *self.frame;
-        let pooled = self.parameters.len() == 1;
-        let Some(parameter) = self.parameters.get_mut(if pooled { 0 } else { index }) else { return };
-        if read && parameter.stale {
-            let per_stride = common.covariance.per_stride;
-            let mut sum = Misfit::beside(common.expected_misfit(&progress.identifier));
-            if pooled {
-                axes.iter().for_each(|axis| axis.share_misfit(&mut sum, per_stride));
-            } else if let Some(axis) = axes.get(index) {
-                axis.add_misfit(&mut sum, per_stride);
-            }
-            parameter.read_variance(sum.known_variance(), common.identifier.scale2());
-            parameter.compare(sum.unexplained, common.max_misfit * sum.signal);
+    pub fn serve_carefully(&mut self, index: usize, read: bool) {
+        let of = parameter_of(index, self.parameters);
+        if read && self.parameters.get(of).is_some_and(|parameter| parameter.stale) {
+            self.read_variances(of, self.parameters.len());
         }
-        let Some(axis) = axes.get_mut(index) else { return };
-        let settled = progress.observer.count - progress.identifier.began >= common.parameter_settle;
-        parameter.read(settled);
+        let Frame { common, progress, axes } = &mut *self.frame;
+        let (Some(axis), Some(parameter)) = (axes.get_mut(index), self.parameters.get_mut(of)) else { return };
+        parameter.read(progress.is_settled(common));
         let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };
         axis.follow(parameter, clocks, common);
     }
+
+    /// The variances that are due, of the parameter `of` and of every `step`-th one after it.
+    #[inline(never)]
+    pub fn read_variances(&mut self, mut of: usize, step: usize) {
+        let Frame { common, progress, axes } = &*self.frame;
+        let beside = Misfit::beside(common.expected_misfit(&progress.identifier));
+        let pooled = self.parameters.len() == 1;
+        while let Some(parameter) = self.parameters.get_mut(of) {
+            let whose = if pooled { 0..axes.len() } else { of..of + 1 };
+            if parameter.stale
+                && let Some(whose) = axes.get(whose)
+            {
+                read_variance_of(whose, beside, parameter, common);
+            }
+            of += step;
+        }
+    }
+}
+
+/// The variance of a parameter out of what its axes contribute to `sum`, in which there is nothing yet.
+#[inline(never)]
+fn read_variance_of(axes: &[Axis], mut sum: Misfit, parameter: &mut ParameterState, common: &Common) {
+    for axis in axes {
+        axis.add_misfit(&mut sum, common.covariance.per_stride);
+    }
+    parameter.read_variance(sum.known_variance(), common.identifier.scale2());
+    parameter.compare(sum.unexplained, common.max_misfit * sum.signal);
 }

@@ -3,7 +3,7 @@
 use super::axis::{Axis, Clocks, Marks};
 use super::design::Common;
 use super::parts::{Frame, Parts, parameter_of};
-use super::shared::IdentifierClock;
+use super::shared::{IdentifierClock, Pace};
 use crate::readout::{NoiseLevel, ParameterState};
 
 /// What becomes of what is known when the identifier's window begins anew.
@@ -26,7 +26,7 @@ impl Parts<'_> {
         let Frame { common, progress, axes } = &mut *self.frame;
         let next = if progress.started { progress.observer.count.saturating_add(1) } else { 0 };
         progress.identifier = IdentifierClock::start(next.saturating_add(common.schedule.turn));
-        progress.steady = false;
+        progress.pace = Pace::Careful;
         let measured = axes.iter().filter(|axis| axis.measured).count();
         let members = if self.parameters.len() == 1 { measured as u8 } else { 1 };
         for parameter in self.parameters.iter_mut() {

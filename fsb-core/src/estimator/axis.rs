@@ -57,18 +57,21 @@ impl Marks {
     }
 }
 
+/// In this order in memory: what every measurement touches comes first, within reach of one base address for several axes.
 #[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
 pub(super) struct Axis {
     pub observer: Observer,
     pub model: Model,
     /// Input over the last measurement interval, or over the present one as far as it is known.
     pub moments: InputMoments,
-    pub block: BlockMeans,
-    /// The first position, subtracted from all: the plant is translation invariant, rounding is not.
-    pub(super) origin: f32,
     /// The innovation before the last.
     pub(super) innovation_before: f32,
+    /// The first position, subtracted from all: the plant is translation invariant, rounding is not.
+    pub(super) origin: f32,
+    pub block: BlockMeans,
     pub cascade: Cascade,
+    pub own: AxisDesign,
     pub(super) cross: NoiseCross,
     /// var a for unit noise.
     pub(super) noise_sum: Accumulator,
@@ -90,7 +93,6 @@ pub(super) struct Axis {
     pub(super) marks: Marks,
     /// Takes part in the identification: it was measured when its first block began.
     pub present: bool,
-    pub own: AxisDesign,
 }
 
 impl Axis {
@@ -107,6 +109,15 @@ impl Axis {
     pub fn decide_use(&mut self) {
         let usable = self.measured && matches!(self.source, Source::Identified | Source::Held | Source::Nominal);
         self.usable_at = if usable { self.settled_at } else { u32::MAX };
+    }
+
+    /// The first measurement, or the first one after the axis was lost.
+    #[inline(always)]
+    pub fn measure_first(&mut self, y: f32, settled_at: u32) {
+        self.measured = true;
+        self.settled_at = settled_at;
+        self.observer.start(y);
+        self.decide_use();
     }
 
     /// The observer's step with a measurement, or with what stands in for it.
@@ -169,6 +180,13 @@ impl Axis {
             self.model.follow(parameter.newest_value(), common.period2);
         }
         usual
+    }
+
+    /// Where [`follow_on`](Self::follow_on) did not do: whether there is more to it than a parameter that is not valid and stays
+    /// so, which may wait for the next turn.
+    #[inline(always)]
+    pub fn has_more_to_do(&self, parameter: &ParameterState, settled: bool) -> bool {
+        self.source == Source::Identified || parameter.may_be_valid(settled)
     }
 
     /// Settles what predicts this axis, and puts the observer where the identifier's own states say it is when the

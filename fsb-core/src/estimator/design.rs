@@ -161,7 +161,9 @@ impl Common {
             weights_at: 0,
             gains_every: 0,
             gains_at: 0,
+            reads_at: 0,
             events: 0,
+            shared: 0,
             unhurried: false,
             staggered: false,
         },
@@ -247,7 +249,8 @@ impl Common {
         self.substep_share = 1.0 / substeps as f32;
         self.block_length = block;
         self.block = BlockDesign::new(block);
-        self.covariance.fill(&config.identifier, step, fading, sharing);
+        let unit = Schedule::coarse_unit(block, period);
+        self.covariance.fill(&config.identifier, step, fading, sharing, unit);
         self.schedule = Schedule::new(axes, block, config.turn, period, self.covariance.steps);
         self.observer = ObserverDesign::from_decay(&config.observer.decay(period));
         let stride = period * Wide::of(self.schedule.gains_every);

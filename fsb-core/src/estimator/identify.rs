@@ -1,7 +1,5 @@
 //! An axis's block through the cascade, and into its parameter's sums.
 
-use core::mem;
-
 use super::axis::{Axis, Marks};
 use super::design::Common;
 use super::shared::IdentifierClock;
@@ -14,8 +12,13 @@ pub(super) struct SingleRound {
     pub stage: Stage,
     pub at: Coefficients,
     pub zu: f32,
-    /// The window is zero in the first two samples.
-    pub open: bool,
+}
+
+impl SingleRound {
+    #[inline(always)]
+    pub fn new(clock: &IdentifierClock, common: &Common) -> Self {
+        Self { stage: common.identifier.stage(), at: clock.at, zu: clock.unit.zu() }
+    }
 }
 
 impl Axis {
@@ -65,23 +68,32 @@ impl Axis {
         self.missed = 0;
     }
 
-    /// The sample just taken, a block by itself, through the cascade into the parameter's sums. Sums are not folded.
+    /// The sample `y`, a block by itself, through the cascade. Returns ẑ2 without the drift. Sums are not folded.
     #[inline(always)]
-    pub fn identify_single(
-        &mut self,
-        round: &SingleRound,
-        coarse: bool,
-        clock: &IdentifierClock,
-        parameter: &mut ParameterState,
-        common: &Common,
-    ) {
-        let mean = self.block.single(self.observer.measurement() - self.origin, self.moments);
+    pub fn step_single(&mut self, y: f32, round: &SingleRound) -> f32 {
+        let mean = self.block.single(y - self.origin, self.moments);
         self.cascade.step_at(mean.y, mean.s, &round.stage, &round.at);
-        let z2 = self.cascade.z2() - self.own.drift * round.zu;
-        if self.tells(common) && round.open {
-            self.read_out(z2, coarse, clock, parameter, common);
-        } else if coarse {
-            self.marks.set(Marks::OWES, true);
+        self.cascade.z2() - self.own.drift * round.zu
+    }
+
+    /// What it led to, into the parameter's sums. The coarse step comes after all axes.
+    #[inline(always)]
+    pub fn add_single(&self, z2: f32, parameter: &mut ParameterState, common: &Common) {
+        let z0 = self.cascade.z0();
+        if common.plain {
+            parameter.ratio.add_plain(z2, z0);
+        } else {
+            parameter.add_generally(z2, z0, common.readout, common.forgetting);
+        }
+    }
+
+    /// The coarse step with the sample that has just gone through the cascade.
+    pub fn step_coarsely(&mut self, clock: &IdentifierClock, parameter: &mut ParameterState, common: &Common) {
+        let (z2, z0) = (self.cascade.z2() - self.own.drift * clock.unit.zu(), self.cascade.z0());
+        if Ratio::is_informative(z0) {
+            self.coarse_step(z2, z0, clock, parameter, common);
+        } else {
+            parameter.skip_coarse_step();
         }
     }
 
@@ -97,12 +109,6 @@ impl Axis {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         }
-    }
-
-    /// A block of predictions alone says nothing that was not known. To be asked once a block.
-    #[inline(always)]
-    fn tells(&mut self, common: &Common) -> bool {
-        self.missed == 0 || u32::from(mem::take(&mut self.missed)) < common.block_length
     }
 
     /// `coarse`: it is the axis's turn for a coarse step.
@@ -125,7 +131,7 @@ impl Axis {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         } else if coarse {
-            parameter.step_coarsely(&CoarseStep::default(), 0.0);
+            parameter.skip_coarse_step();
         }
     }
 
@@ -139,13 +145,12 @@ impl Axis {
         common: &Common,
     ) {
         let z0 = self.cascade.z0();
-        if parameter.ratio.add(common.readout, z2, z0, common.forgetting) {
+        if parameter.add_generally(z2, z0, common.readout, common.forgetting) {
             if coarse {
                 self.coarse_step(z2, z0, clock, parameter, common);
             }
         } else if coarse {
-            // Nothing to add: those that share the parameter do not wait for this axis.
-            parameter.step_coarsely(&CoarseStep::default(), 0.0);
+            parameter.skip_coarse_step();
         }
     }
 
@@ -245,12 +250,6 @@ impl Axis {
         to.unexplained += unexplained;
         to.signal += signal;
     }
-
-    /// The same, for one of several axes.
-    #[inline(never)]
-    pub fn share_misfit(&self, to: &mut Misfit, per_stride: f32) {
-        self.add_misfit(to, per_stride);
-    }
 }
 
 impl Common {
@@ -274,6 +273,7 @@ impl Common {
 }
 
 /// What the axes that share a parameter contribute to its uncertainty.
+#[derive(Clone, Copy)]
 pub(super) struct Misfit {
     /// Whether the noise is known.
     pub known: bool,

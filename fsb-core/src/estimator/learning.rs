@@ -6,6 +6,7 @@ use super::axis::{Axis, Clocks};
 use super::design::Common;
 use super::output::Learning;
 use super::parts::{Frame, Parts, parameter_of};
+use super::shared::Pace;
 use crate::observer::Model;
 use crate::readout::ParameterState;
 
@@ -30,7 +31,7 @@ impl Parts<'_> {
     fn set_learning(&mut self, learning: Learning) {
         let progress = &mut self.frame.progress;
         progress.learning = learning;
-        progress.steady = false;
+        progress.pace = Pace::Careful;
         match learning {
             Learning::On => self.begin_window(Known::Held),
             Learning::Off => self.predict_with_parameters(),

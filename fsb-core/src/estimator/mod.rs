@@ -15,6 +15,7 @@
 //! | `shared` | the state that depends on time alone: windows, gains, weights, covariance |
 //! | `step` | the two calls a tick |
 //! | `advance` | what a measurement instant does |
+//! | `singles` | the same where blocks are single samples |
 //! | `repair` | measurements that did not come, or cannot be right |
 //! | `parts` | an estimator without its shape: code that is there once for all shapes |
 //! | `expectation` | what the next measurement should be, for a gate in front |
@@ -38,6 +39,7 @@ mod readings;
 mod repair;
 mod schedule;
 mod shared;
+mod singles;
 mod step;
 mod stored;
 #[cfg(test)]

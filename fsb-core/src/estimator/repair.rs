@@ -42,10 +42,9 @@ impl Parts<'_> {
                 }
                 axis.gap = 0;
                 if !axis.measured {
-                    axis.measured = true;
-                    axis.observer.start(*y);
                     let late = if progress.observer.count > 0 { common.late_settle } else { 1 };
-                    axis.settled_at = progress.observer.count.saturating_add(late.max(common.state_settle));
+                    let settled_at = progress.observer.count.saturating_add(late.max(common.state_settle));
+                    axis.measure_first(*y, settled_at);
                     // A late one may find a parameter that the others have identified.
                     let late = progress.observer.count > 0 && axis.source == Source::Nominal;
                     if (late || axis.source == Source::Nothing)
@@ -54,7 +53,6 @@ impl Parts<'_> {
                         let clocks = Clocks { identifier: &progress.identifier, observer: &progress.observer };
                         axis.change_source(parameter, clocks, common);
                     }
-                    axis.decide_use();
                 }
                 continue;
             }

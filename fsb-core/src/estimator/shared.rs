@@ -6,7 +6,20 @@ use crate::identifier::{Coefficients, UnitChain};
 use crate::observer::Gains;
 use crate::readout::NoiseShape;
 use crate::snapshot::stored;
-use crate::window::Window;
+use crate::window::{Window, WindowDesign};
+
+/// The way that the next measurement goes, if every axis is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pace {
+    /// The general one.
+    Careful,
+    /// Blocks of one, in which everybody takes part.
+    Singles,
+    /// Blocks of several samples, and gains that hardly change.
+    Steady,
+    /// Blocks of several samples, in the first measurements.
+    Hurried,
+}
 
 /// Where the estimator is in time.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +31,7 @@ pub(super) struct Progress {
     pub started: bool,
     /// Every axis was measured at the last instant.
     pub all_measured: bool,
-    /// The next measurement can go the quick way.
-    pub steady: bool,
+    pub pace: Pace,
     pub learning: Learning,
     pub counters: Counters,
 }
@@ -32,7 +44,7 @@ impl Progress {
             substep: 0,
             started: false,
             all_measured: false,
-            steady: false,
+            pace: Pace::Careful,
             learning: Learning::On,
             counters: Counters::default(),
         }
@@ -43,6 +55,30 @@ impl Progress {
     /// At the start again, still counting, and learning as it was told.
     pub fn anew(&self, common: &Common) -> Self {
         Self { counters: self.counters, learning: self.learning, ..Self::start(common) }
+    }
+
+    /// The gains of the next of the first measurements; returns that of the velocity.
+    #[cold]
+    #[inline(never)]
+    pub fn hurry_on(&mut self, common: &Common) -> f32 {
+        if self.observer.striding {
+            self.pace = Pace::Steady;
+        } else {
+            self.observer.gains = self.observer.hurry(common);
+        }
+        self.observer.gains.t_l2()
+    }
+
+    /// Whether ε of the parameter has passed.
+    #[inline(always)]
+    pub fn is_settled(&self, common: &Common) -> bool {
+        self.observer.count - self.identifier.began >= common.parameter_settle
+    }
+
+    /// Whether this measurement is the identifier's as well.
+    #[inline(always)]
+    pub fn is_identifying(&self) -> bool {
+        self.observer.count >= self.identifier.began && self.learning == Learning::On
     }
 }
 
@@ -86,15 +122,27 @@ impl ObserverClock {
         self.count = self.count.wrapping_add(1);
     }
 
-    /// The gains of the next of the first measurements.
+    /// One more measurement instant, and its gains.
+    #[inline(always)]
     pub fn next(&mut self, common: &Common) -> Gains {
-        self.window.step(&common.observer.window);
+        self.tick();
+        if self.striding { self.gains } else { self.hurry(common) }
+    }
+
+    /// The gains of the next of the first measurements.
+    #[inline(never)]
+    fn hurry(&mut self, common: &Common) -> Gains {
         // The very first at once, then in turns with an estimator that has another turn.
-        if self.count < 4 || common.schedule.unhurried || (self.count ^ common.schedule.turn) & 1 == 0 {
-            Gains::at(&self.window, &common.observer)
-        } else {
-            self.gains
-        }
+        let schedule = &common.schedule;
+        let anew = self.count < 4 || schedule.unhurried || (self.count ^ u32::from(schedule.turn != 0)) & 1 == 0;
+        self.move_on(&common.observer.window, anew, common)
+    }
+
+    /// Moves the window, and returns the gains there or those so far.
+    #[inline(never)]
+    fn move_on(&mut self, by: &WindowDesign, anew: bool, common: &Common) -> Gains {
+        self.window.step(by);
+        if anew { Gains::at(&self.window, &common.observer) } else { self.gains }
     }
 
     /// At the gains' turn: from now on they stride.
@@ -103,11 +151,9 @@ impl ObserverClock {
     }
 
     /// New gains for the measurements to come.
-    #[inline(never)]
     pub fn renew(&mut self, common: &Common) {
         if !self.window.is_settled() {
-            self.window.step(&common.observer_stride);
-            self.gains = Gains::at(&self.window, &common.observer);
+            self.gains = self.move_on(&common.observer_stride, true, common);
         }
     }
 

@@ -5,7 +5,7 @@ use super::axis::Axis;
 use super::design::Common;
 use super::output::OutOfStep;
 use super::parts::{Frame, Parts};
-use super::shared::Progress;
+use super::shared::{Pace, Progress};
 use crate::moments::InputMoments;
 
 impl<const N: usize, const P: usize> Estimator<N, P> {
@@ -30,15 +30,21 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
     /// As [`measure`](Self::measure).
     pub fn measure_raw(&mut self, positions: &[f32; N]) -> Result<(), OutOfStep> {
         let due = self.frame.progress.substep >= self.frame.common.substeps;
-        if due && self.frame.progress.steady && all_within(positions, self.frame.common.position_limit) {
-            self.advance_steadily(positions);
+        let pace = self.frame.progress.pace;
+        let in_block = matches!(pace, Pace::Steady | Pace::Hurried);
+        if due && in_block && all_within(positions, self.frame.common.position_limit) {
+            self.advance_steadily(positions, pace);
             return Ok(());
         }
         if self.frame.progress.started && !due {
             return Err(OutOfStep { missing: self.frame.common.substeps - self.frame.progress.substep });
         }
         let mut positions = *positions;
-        self.parts().advance(&mut positions);
+        if pace == Pace::Singles {
+            self.parts().advance_singles(&mut positions);
+        } else {
+            self.parts().advance(&mut positions);
+        }
         Ok(())
     }
 

@@ -4,11 +4,11 @@ use super::Estimator;
 use super::advance::LONG_AGO;
 use super::axis::{Axis, Marks, Source};
 use super::output::{Counters, Learning};
-use super::shared::Progress;
+use super::shared::{Pace, Progress};
 use crate::snapshot::{Archive, Fingerprint, Stored, Whole, snapshots, stored};
 
 stored!(Counters { missed, rejected_measurements, rejected_inputs });
-stored!(Progress { observer, identifier, substep, started, all_measured, steady, learning, counters });
+stored!(Progress { observer, identifier, substep, started, all_measured, pace, learning, counters });
 stored!(Marks { bits });
 stored!(Axis {
     observer,
@@ -31,6 +31,14 @@ stored!(Axis {
     marks,
     present,
 });
+
+/// Not kept: the first measurement after it goes the general way, which leads to the same state, and finds out.
+impl Stored for Pace {
+    fn pass(&mut self, archive: &mut dyn Archive) {
+        *self = Self::Careful;
+        0_u32.pass(archive);
+    }
+}
 
 impl Stored for Learning {
     fn pass(&mut self, archive: &mut dyn Archive) {
@@ -79,11 +87,9 @@ impl<const N: usize, const P: usize> Whole for Estimator<N, P> {
     fn is_sound(&self) -> bool {
         let common = &self.frame.common;
         let progress = &self.frame.progress;
-        let round = if common.block_length == 1 { 8 } else { common.block_length };
         let clocks = progress.substep <= common.substeps
-            && progress.identifier.position < round
+            && progress.identifier.position < common.schedule.round
             && progress.observer.count <= LONG_AGO + 65_536
-            && (!progress.steady || progress.observer.count >= progress.identifier.began)
             && progress.observer.is_sound()
             && progress.identifier.is_sound();
         // Positions are predicted within the limit or lost; a velocity crosses the whole range in a few periods at most.

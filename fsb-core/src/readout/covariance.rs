@@ -70,15 +70,16 @@ impl CovarianceDesign {
     };
 
     /// For an identifier at `period` whose memory fades by e^(-`fading`) in each step, together with all the `sharing` axes
-    /// of a parameter.
+    /// of a parameter. D is a multiple of `unit` where it is as large.
     #[inline(never)]
-    pub fn fill(&mut self, tuning: &Tuning, period: Wide, fading: Wide, sharing: u32) {
+    pub fn fill(&mut self, tuning: &Tuning, period: Wide, fading: Wide, sharing: u32, unit: u32) {
         let tuning = black_box(tuning);
         let (lambda, q) = (Wide::new(tuning.lambda).rounded(), Wide::new(tuning.q).rounded());
         let fastest = if lambda > q { lambda } else { q };
         let strides = Self::COARSE / (fastest * period.rounded());
         // At least 1.75, rounded to the nearest.
         let steps = if strides >= 1.75 { (strides + 0.5) as u32 } else { 1 };
+        let steps = if steps >= unit { steps.saturating_add((unit - 1) / 2) / unit.max(1) * unit } else { steps };
         let stride = Wide::of(steps);
         self.coarse = IdentifierDesign::at_scale(&tuning.decay(stride * period), Wide::ONE);
         let (c, p) = (self.coarse.c, 1.0 - self.coarse.c);

@@ -1,6 +1,6 @@
 //! k with its variance, and the rule by which it may be used.
 
-use super::ratio::Ratio;
+use super::ratio::{Ratio, Readout};
 use super::status::ParameterStatus;
 use crate::accumulator::Accumulator;
 use crate::checks::{Checks, Range, Rule, rule};
@@ -165,6 +165,13 @@ impl ParameterState {
         }
     }
 
+    /// Adds a sample to the sums, whatever the read-out; returns whether it held any information.
+    #[cold]
+    #[inline(never)]
+    pub fn add_generally(&mut self, z2: f32, z0: f32, readout: Readout, forgetting: f32) -> bool {
+        self.ratio.add(readout, z2, z0, forgetting)
+    }
+
     /// Forgets what is known.
     pub fn restart(&mut self, members: u8) {
         *self = Self::start(members, self.nominal, self.rule);
@@ -239,6 +246,12 @@ impl ParameterState {
             let weight = step.weight * per_information;
             self.disturbance = known(before * before * self.disturbance + weight * weight * step.disturbance);
         }
+        self.skip_coarse_step();
+    }
+
+    /// A coarse step of one of its axes that says nothing: those that share the parameter do not wait for it.
+    #[inline(always)]
+    pub fn skip_coarse_step(&mut self) {
         self.stepped = self.stepped.saturating_add(1);
         if self.stepped >= self.members {
             self.stepped = 0;
@@ -363,6 +376,16 @@ impl ParameterState {
             self.value = value;
         }
         stays
+    }
+
+    /// Whether [`read`](Self::read) would find it valid, or no longer settling; also said where it takes a closer look to tell.
+    #[inline(never)]
+    pub fn may_be_valid(&self, settled: bool) -> bool {
+        let (rule, value) = (&self.rule, self.ratio.quotient());
+        let limit = rule.relative_variance * (value * value);
+        let found = value >= rule.min && value <= rule.max && self.variance <= limit && !self.contradicted;
+        let settles = settled && self.status == ParameterStatus::Settling;
+        found || settles || self.status as u8 >= ParameterStatus::Valid as u8
     }
 
     /// The quotient from the sums as they are, and its status.

@@ -172,6 +172,10 @@ fn source_line(line: &str) -> Option<&str> {
 
 /// The size, now that the address behind the function is known.
 fn close(function: &mut Function, end: u32) {
+    // What the linker fills up with reads as a conditional branch, which no function ends with.
+    if function.instructions.last().is_some_and(|last| last.mnemonic == "bmi.n") {
+        function.instructions.pop();
+    }
     if let Some(first) = function.instructions.first() {
         function.size = end - first.address;
     }

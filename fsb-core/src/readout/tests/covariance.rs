@@ -23,7 +23,7 @@ fn it_is_the_sum_over_single_samples() {
         (Tuning { lambda: 6.0, q: 2.0 }, 0.05),
     ] {
         let mut design = CovarianceDesign::BLANK;
-        design.fill(&tuning, Wide::new(PERIOD), Wide::new(fading), 1);
+        design.fill(&tuning, Wide::new(PERIOD), Wide::new(fading), 1, 1);
         assert_eq!(design.steps, 1, "every step counts at this rate");
         let identifier = IdentifierDesign::at_scale(&tuning.decay(Wide::new(PERIOD)), Wide::ONE);
         let mut answers = [Cascade::default(); STEPS];
