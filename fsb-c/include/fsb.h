@@ -747,7 +747,7 @@ fsb_status_t fsb_axis_init(struct fsb_axis_t *estimator,
                            const struct fsb_axis_config_t *config,
                            const char **parameter);
 
-// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// Forgets everything but the configuration, what was said about learning and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
 // FSB_NOT_INITIALISED.
 fsb_status_t fsb_axis_reset(struct fsb_axis_t *estimator);
 
@@ -829,7 +829,7 @@ fsb_status_t fsb_rotation_init(struct fsb_rotation_t *estimator,
                                const struct fsb_rotation_config_t *config,
                                const char **parameter);
 
-// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// Forgets everything but the configuration, what was said about learning and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
 // FSB_NOT_INITIALISED.
 fsb_status_t fsb_rotation_reset(struct fsb_rotation_t *estimator);
 
@@ -954,7 +954,7 @@ fsb_status_t fsb_translation_init(struct fsb_translation_t *estimator,
                                   const struct fsb_translation_config_t *config,
                                   const char **parameter);
 
-// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// Forgets everything but the configuration, what was said about learning and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
 // FSB_NOT_INITIALISED.
 fsb_status_t fsb_translation_reset(struct fsb_translation_t *estimator);
 
@@ -1060,7 +1060,7 @@ fsb_status_t fsb_vehicle_init(struct fsb_vehicle_t *vehicle,
                               const struct fsb_vehicle_config_t *config,
                               const char **parameter);
 
-// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+// Forgets everything but the configuration, what was said about learning and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
 // FSB_NOT_INITIALISED.
 fsb_status_t fsb_vehicle_reset(struct fsb_vehicle_t *vehicle);
 

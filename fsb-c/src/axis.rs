@@ -103,7 +103,7 @@ pub unsafe extern "C" fn fsb_axis_init(
     any::init(estimator, config, parameter)
 }
 
-/// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+/// Forgets everything but the configuration, what was said about learning and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
 /// FSB_NOT_INITIALISED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_axis_reset(estimator: *mut fsb_axis_t) -> fsb_status_t {

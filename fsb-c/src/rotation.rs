@@ -104,7 +104,7 @@ pub unsafe extern "C" fn fsb_rotation_init(
     any::init(estimator, config, parameter)
 }
 
-/// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+/// Forgets everything but the configuration, what was said about learning and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
 /// FSB_NOT_INITIALISED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_rotation_reset(estimator: *mut fsb_rotation_t) -> fsb_status_t {

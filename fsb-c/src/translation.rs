@@ -104,7 +104,7 @@ pub unsafe extern "C" fn fsb_translation_init(
     any::init(estimator, config, parameter)
 }
 
-/// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+/// Forgets everything but the configuration, what was said about learning and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
 /// FSB_NOT_INITIALISED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_translation_reset(estimator: *mut fsb_translation_t) -> fsb_status_t {

@@ -105,7 +105,7 @@ pub unsafe extern "C" fn fsb_vehicle_init(
     initialised(outcome, parameter)
 }
 
-/// Forgets everything but the configuration and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
+/// Forgets everything but the configuration, what was said about learning and the counters. Errors: FSB_NULL_POINTER, FSB_MISALIGNED,
 /// FSB_NOT_INITIALISED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fsb_vehicle_reset(vehicle: *mut fsb_vehicle_t) -> fsb_status_t {

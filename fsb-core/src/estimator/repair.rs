@@ -132,7 +132,8 @@ impl Axis {
         let share = common.covariance.share(progress.identifier.blocks);
         // A mean over a block has so much less of it.
         let per_length = common.block.per_length;
-        self.noise.come_back(gap, gap.max(lasting), off, share * (per_length * per_length));
+        let lasting = if gap > lasting { gap } else { lasting };
+        self.noise.come_back(gap, lasting, off, share * (per_length * per_length));
         self.observer.come_back(gap, off, t_l2);
     }
 }

@@ -23,6 +23,7 @@
 
 use super::config::ChangeRule;
 use super::residual::Residuals;
+use super::statistic::{Limits, Statistic, Terms};
 use crate::error::{ConfigError, finite, positive};
 use crate::estimator::{IdentifierView, InnovationView};
 use crate::snapshot::{Archive, Fingerprint, Stored, stored};
@@ -242,68 +243,7 @@ impl Detector {
     }
 }
 
-/// Σ r φ, Σ φ², and var Σ r φ by noise and by the disturbance.
-#[derive(Clone, Copy, Debug, Default)]
-struct Terms {
-    product: f32,
-    square: f32,
-    variance: f32,
-    disturbed: f32,
-}
-
-/// What a change has to exceed.
-struct Limits {
-    relative: f32,
-    sigmas2: f32,
-    /// For φ².
-    least: [f32; 3],
-    open: bool,
-}
-
-/// The terms over a fading memory, and for how many instants they have shown a change.
-#[derive(Clone, Copy, Debug)]
-struct Statistic {
-    /// e^(-T/τ), zero for none.
-    keep: f32,
-    /// Instants over which a disturbance is about the same.
-    correlation: f32,
-    sums: [Terms; 3],
-    streaks: [u32; 3],
-}
-
-impl Statistic {
-    fn new(keep: f64, correlation: f64) -> Self {
-        Self { keep: keep as f32, correlation: correlation as f32, sums: [Terms::default(); 3], streaks: [0; 3] }
-    }
-
-    fn reset(&mut self) {
-        (self.sums, self.streaks) = Default::default();
-    }
-
-    /// The longest streak.
-    fn add(&mut self, terms: &[Terms; 3], known: &[Option<f32>; 3], limits: &Limits) -> u32 {
-        let mut longest = 0;
-        let (keep, share) = (self.keep, 1.0 - self.keep);
-        let of_parameters = self.sums.iter_mut().zip(&mut self.streaks).zip(terms).zip(known).zip(&limits.least);
-        for ((((sum, streak), term), k), least) in of_parameters {
-            sum.product = keep * sum.product + term.product;
-            sum.square = keep * sum.square + term.square;
-            sum.variance = keep * keep * sum.variance + term.variance;
-            sum.disturbed = keep * keep * sum.disturbed + term.disturbed;
-            // κ beyond both limits, each multiplied by T² Σ φ².
-            let shows = k.is_some_and(|k| sum.product.abs() > limits.relative * k * sum.square)
-                && sum.product * sum.product > limits.sigmas2 * (sum.variance + self.correlation * sum.disturbed);
-            let judged = limits.open && share * sum.square > *least;
-            *streak = if judged && shows { streak.saturating_add(1) } else { 0 };
-            longest = longest.max(*streak);
-        }
-        longest
-    }
-}
-
 stored!(Response { phi, e, w });
-stored!(Terms { product, square, variance, disturbed });
-stored!(Statistic { sums, streaks });
 
 impl Stored for Detector {
     fn pass(&mut self, archive: &mut dyn Archive) {

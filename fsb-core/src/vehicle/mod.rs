@@ -38,10 +38,12 @@
 //! | `actuators` | first-order lag; moments of the force turned into the world frame |
 //! | `gyroscopic` | ω × I ω as an input |
 //! | `retroactive` | the same with moments of inertia that were not known at the time |
-//! | `change` | whether a parameter has changed |
+//! | `change`, `statistic` | whether a parameter has changed, by the innovations |
+//! | `residual` | the same by what is left in the identifier's band |
 //! | `reinitialise` | parameters identified anew |
 //! | `replaced` | forces and torques that were rejected |
 //! | `delay` | inputs waiting for a measurement that comes late |
+//! | `told` | learning or not, periods lost, a start anew |
 //! | `step` | measurements between two measurement instants |
 //! | `stored` | what a snapshot holds |
 //! | `triple` | three numbers, one for each axis of a group |
@@ -62,10 +64,12 @@ mod replaced;
 mod residual;
 mod retroactive;
 mod state;
+mod statistic;
 mod step;
 mod stored;
 #[cfg(test)]
 mod tests;
+mod told;
 mod triple;
 mod unwind;
 
