@@ -184,7 +184,7 @@ impl Detector {
         streak >= self.enough || self.contradicted >= self.enough
     }
 
-    /// Whether the identifier, which has come to so many blocks, has taken a step that has not been looked at.
+    /// Whether the identifier, which has come to so many blocks, has gone far enough to be [looked at](Self::observe_residuals) again.
     pub fn is_behind(&self, blocks: u32) -> bool {
         self.residuals.are_behind(blocks)
     }
