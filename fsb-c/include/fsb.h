@@ -297,7 +297,8 @@ typedef struct fsb_axis_config_t {
   // Standard deviation of a measurement [m or rad] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
   // Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
-  // known beforehand, else NaN. 1e-12..1e6.
+  // known beforehand, else NaN; noise of the position that wanders by w within 1/lambda of the identifier is one of
+  // lambda^2 w. 1e-12..1e6.
   double disturbance_sd;
   // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
@@ -344,8 +345,8 @@ typedef struct fsb_state_t {
   fsb_state_status_t status;
 } fsb_state_t;
 
-// Standard deviations of a state that measurement noise causes; NaN until the noise is known, and after gaps among the first
-// measurements until 8/lambda of them (of the observer) have come.
+// Standard deviations of a state, as measurement noise causes it and what residuals show that the model lacks; NaN until the noise
+// is known, and after gaps among the first measurements until 8/lambda of them (of the observer) have come.
 typedef struct fsb_state_sd_t {
   // Of the position [m or rad].
   float position;
@@ -418,7 +419,8 @@ typedef struct fsb_rotation_config_t {
   // Standard deviation of a measurement [rad] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
   // Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
-  // known beforehand, else NaN. 1e-12..1e6.
+  // known beforehand, else NaN; noise of the position that wanders by w within 1/lambda of the identifier is one of
+  // lambda^2 w. 1e-12..1e6.
   double disturbance_sd;
   // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
@@ -500,7 +502,8 @@ typedef struct fsb_translation_config_t {
   // Standard deviation of a measurement [m] where it is known beforehand, else NaN. 1e-12..1e6.
   double noise_sd;
   // Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
-  // known beforehand, else NaN. 1e-12..1e6.
+  // known beforehand, else NaN; noise of the position that wanders by w within 1/lambda of the identifier is one of
+  // lambda^2 w. 1e-12..1e6.
   double disturbance_sd;
   // Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
   double memory_tau;
@@ -794,8 +797,8 @@ fsb_status_t fsb_axis_apply_ramp(struct fsb_axis_t *estimator, const float *from
 fsb_status_t fsb_axis_state(const struct fsb_axis_t *estimator,
                             struct fsb_state_t *state);
 
-// Hands out the standard deviations of the state that measurement noise causes; NaN until the noise is known, and after gaps
-// among the first measurements until 8/lambda of them have come.
+// Hands out the standard deviations of the state, as measurement noise causes it and what residuals show that the model lacks; NaN
+// until the noise is known, and after gaps among the first measurements until 8/lambda of them have come.
 // Errors as fsb_axis_state. Uses square roots: for logs, not for the tick.
 fsb_status_t fsb_axis_state_sd(const struct fsb_axis_t *estimator,
                                struct fsb_state_sd_t *sd);
@@ -879,8 +882,8 @@ fsb_status_t fsb_rotation_apply_ramp(struct fsb_rotation_t *estimator,
 fsb_status_t fsb_rotation_states(const struct fsb_rotation_t *estimator,
                                  struct fsb_state_t state[3]);
 
-// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known, and after gaps
-// among the first measurements until 8/lambda of them have come.
+// Hands out the standard deviations of the three states, as measurement noise causes it and what residuals show that the model lacks; NaN
+// until the noise is known, and after gaps among the first measurements until 8/lambda of them have come.
 // Errors as fsb_rotation_states. Uses square roots: for logs, not for the tick.
 fsb_status_t fsb_rotation_state_sd(const struct fsb_rotation_t *estimator,
                                    struct fsb_state_sd_t sd[3]);
@@ -1004,8 +1007,8 @@ fsb_status_t fsb_translation_apply_ramp(struct fsb_translation_t *estimator,
 fsb_status_t fsb_translation_states(const struct fsb_translation_t *estimator,
                                     struct fsb_state_t state[3]);
 
-// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known, and after gaps
-// among the first measurements until 8/lambda of them have come.
+// Hands out the standard deviations of the three states, as measurement noise causes it and what residuals show that the model lacks; NaN
+// until the noise is known, and after gaps among the first measurements until 8/lambda of them have come.
 // Errors as fsb_translation_states. Uses square roots: for logs, not for the tick.
 fsb_status_t fsb_translation_state_sd(const struct fsb_translation_t *estimator,
                                       struct fsb_state_sd_t sd[3]);

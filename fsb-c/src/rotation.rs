@@ -56,7 +56,8 @@ pub struct fsb_rotation_config_t {
     /// Standard deviation of a measurement [rad] where it is known beforehand, else NaN. 1e-12..1e6.
     pub noise_sd: f64,
     /// Standard deviation of the acceleration that is not accounted for [m/s^2 or rad/s^2], such as wind, where it is
-    /// known beforehand, else NaN. 1e-12..1e6.
+    /// known beforehand, else NaN; noise of the position that wanders by w within 1/lambda of the identifier is one of
+    /// lambda^2 w. 1e-12..1e6.
     pub disturbance_sd: f64,
     /// Time constant [s] with which the identifier forgets, at least one of its steps; INFINITY: never.
     pub memory_tau: f64,
@@ -183,8 +184,8 @@ pub unsafe extern "C" fn fsb_rotation_states(
     readings::states(estimator, state)
 }
 
-/// Hands out the standard deviations of the three states that measurement noise causes; NaN until the noise is known, and after gaps
-/// among the first measurements until 8/lambda of them have come.
+/// Hands out the standard deviations of the three states, as measurement noise causes it and what residuals show that the model lacks; NaN
+/// until the noise is known, and after gaps among the first measurements until 8/lambda of them have come.
 /// Errors as fsb_rotation_states. Uses square roots: for logs, not for the tick.
 /// cbindgen:ptrs-as-arrays=[[sd;3]]
 #[unsafe(no_mangle)]

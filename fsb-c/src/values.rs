@@ -93,8 +93,8 @@ pub struct fsb_parameter_report_t {
     pub inverse_sd: f32,
 }
 
-/// Standard deviations of a state that measurement noise causes; NaN until the noise is known, and after gaps among the first
-/// measurements until 8/lambda of them (of the observer) have come.
+/// Standard deviations of a state, as measurement noise causes it and what residuals show that the model lacks; NaN until the noise
+/// is known, and after gaps among the first measurements until 8/lambda of them (of the observer) have come.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct fsb_state_sd_t {

@@ -265,6 +265,14 @@ impl Common {
         self.observer_tuning = config.observer;
         self.measurement_period = period.get();
     }
+    /// The power that noise has in the observer's band over that in the identifier's, where it wanders as white noise summed up: (λ/λ of
+    /// the observer)², at most one. In the first `blocks` both bands are where the time since the start has them, at 4/t.
+    pub fn wander_at_observer(&self, blocks: u32) -> f32 {
+        let opening = 4.0 / (blocks as f32 + 1.0);
+        let ratio = (self.identifier.c + opening) / (self.block.length * (1.0 - self.observer.p()) + opening);
+        if ratio < 1.0 { ratio * ratio } else { 1.0 }
+    }
+
     /// When the state is known of an axis of which nothing has come since the first measurement, `count` instants ago. The
     /// velocity taken for zero weighs 3 (count/n)² of itself at instant n, until the observer has forgotten it.
     pub fn settled_after(&self, count: u32) -> u32 {

@@ -168,29 +168,33 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         })
     }
 
-    /// Standard deviations of the states at the last measurement instant that measurement noise causes, where the noise
-    /// level is known. The parameter's own uncertainty is not in them.
+    /// Standard deviations of the states at the last measurement instant, where the noise level is known: what measurement noise
+    /// causes, and what the identifier's residuals show beyond it or `disturbance_sd` expects, as position noise that wanders would.
+    /// The parameter's own uncertainty is not in them, nor is how far off measurements are that wander together.
     ///
     /// Where some of the first measurements were missed, on any axis, and others came after them there is none until those that came
-    /// make up 8/λ of the observer: what the start leaves in the state depends on which of them came. Otherwise good to a few per cent, and
-    /// to 15 % with up to seven of ten missing at random. For reports, not for the tick.
+    /// make up 8/λ of the observer: what the start leaves in the state depends on which of them came. For white noise otherwise good
+    /// to a few per cent, and to 15 % with up to seven of ten missing at random. Velocities in noise that wanders or in gusts are
+    /// within a factor of 2 of it in the end, and farther off in the first 4/λ of the identifier. For reports, not for the tick.
     pub fn state_sd(&self) -> [Option<AxisState>; N] {
-        let (tuning, period) = (self.frame.common.observer_tuning, self.frame.common.measurement_period);
-        let count = self.frame.progress.observer.count;
-        let at_present = NoiseGain::at_sample(count, tuning, period);
-        self.frame.axes.each_ref().map(|axis| {
+        let Frame { common, progress, axes } = &self.frame;
+        let (tuning, period, clock) = (common.observer_tuning, common.measurement_period, &progress.observer);
+        let at_present = NoiseGain::at_sample(clock.count, tuning, period);
+        let share = common.wander_at_observer(progress.identifier.blocks);
+        let expected =
+            if progress.identifier.is_shaped(common) { common.expected_misfit(&progress.identifier) } else { 0.0 };
+        axes.each_ref().map(|axis| {
             // Nothing has been averaged since the last measurement.
             let gain = match u32::from(axis.gap) {
                 0 => at_present,
-                gap => NoiseGain::at_sample(count.saturating_sub(gap), tuning, period),
+                gap => NoiseGain::at_sample(clock.count.saturating_sub(gap), tuning, period),
             };
             // Means over M samples have an M-th of the variance.
-            let variance = axis.noise.measurement_variance() * self.frame.common.block_length as f32;
-            let clock = &self.frame.progress.observer;
-            let forgotten = clock.early == 0 || clock.came(axis.gap) >= self.frame.common.late_settle;
+            let variance = axis.noise.variance_beside(share, expected) * common.block_length as f32;
+            let forgotten = clock.early == 0 || clock.came(axis.gap) >= common.late_settle;
             (axis.noise.is_known() && axis.measured && forgotten).then(|| AxisState {
                 position: libm::sqrtf(variance * gain.position_after(axis.gap)),
-                velocity: libm::sqrtf(variance * gain.velocity(&self.frame.common.observer)),
+                velocity: libm::sqrtf(variance * gain.velocity(&common.observer)),
             })
         })
     }

@@ -144,6 +144,12 @@ impl NoiseLevel {
         (if self.residual > noise { self.residual } else { 0.0 }, self.signal)
     }
 
+    /// σ² where only that `share` counts of what is seen in the band of the identifier, or is `expected` there.
+    pub(crate) fn variance_beside(&self, share: f32, expected: f32) -> f32 {
+        let slow = share * if self.slow > expected { self.slow } else { expected };
+        if slow > self.fine { slow } else { self.fine }
+    }
+
     /// Whether enough values have been seen.
     pub const fn is_known(&self) -> bool {
         self.values >= Self::ENOUGH
