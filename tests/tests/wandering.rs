@@ -1,7 +1,10 @@
 //! Position noise that is not white: it wanders, as that of GNSS, of SLAM or of a filtered position does. And what the model
 //! lacks, a gust or actuators that lag, which reaches the velocity all the same. A vertical axis under gravity, in motion.
 
+use fsb_core::vehicle::{ChangeRule, Expected, VehicleConfig, VehicleEstimator};
 use fsb_core::{Estimator, EstimatorConfig, Tuning};
+use fsb_tests::rigid_body::RigidBody;
+use fsb_tests::six_axes::{Course, Flight};
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
@@ -133,5 +136,65 @@ fn the_first_k_where_noise_wanders() {
         assert!(k[1] < 5.5 && k[2] < 8.0 && velocity[1] < 2.5, "{lacking:?}: {k:?} {velocity:?}");
         // What it is for.
         assert!(silent[1] > 12.0, "{lacking:?}: {silent:?}");
+    }
+}
+
+/// A vehicle with a rule for changes, in noise of 0.1 m that wanders within 2 s or in gusts of 1 m/s², and nobody told. Some time after 8 s
+/// its mass changes: changes told before that were none, and how long after it the mass is known to 10 % and stays so (s).
+fn changed(wander: bool, seed: u64) -> (u32, f64) {
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let period = [0.01, 0.005, 0.002][rng.random_range(0..3)];
+    let truth = RigidBody::default();
+    let mut config = VehicleConfig::new(period);
+    config.mass = Expected::about(truth.mass * rng.random_range(0.7..1.4));
+    config.inertia = truth.inertia.map(|i| Expected::about(i * rng.random_range(0.7..1.4)));
+    config.change = Some(ChangeRule::default());
+    let mut vehicle = VehicleEstimator::<1>::new(&config).unwrap();
+    let mut flight = Flight::new(truth, Course::AGGRESSIVE, period, seed);
+    (flight.position_noise, flight.attitude_noise) = (1e-3, 1e-3);
+    let (tau, at) = (if wander { 2.0 } else { rng.random_range(0.05..0.5) }, rng.random_range(8.0..15.0));
+    let factor = [rng.random_range(0.4..0.75), rng.random_range(1.3..2.5)][rng.random_range(0..2)];
+    let (mut x, mut none, mut known) = ([0.0; 3], 0, f64::INFINITY);
+    let mut wrench = flight.pilot();
+    while flight.t() < 25.0 {
+        let since = flight.t() - at;
+        if since >= 0.0 {
+            flight.body.mass = factor * truth.mass;
+        }
+        let mut measured = flight.measure();
+        for (axis, x) in x.iter_mut().enumerate() {
+            let moved = first_order(x, if wander { 0.1 } else { 1.0 }, tau, period, &mut rng);
+            if !wander {
+                flight.body.velocity[axis] += moved * period;
+            } else if let Some(position) = &mut measured.position {
+                position[axis] += moved as f32;
+            }
+        }
+        let events = vehicle.update(&measured, &wrench);
+        none += u32::from(events.mass_changed && since < 0.0);
+        let right = |k: f32| (f64::from(k) / flight.body.mass - 1.0).abs() < 0.1;
+        let right = since > 0.0 && vehicle.mass().is_some_and(|mass| right(mass.value));
+        known = if right { known.min(since) } else { f64::INFINITY };
+        wrench = flight.pilot();
+        flight.step(&wrench);
+    }
+    (none, known)
+}
+
+/// What r² has been for long is no sign of a change: told of one after the other, half of the flights knew their mass 8 and 10 s after it
+/// had changed.
+#[test]
+fn changes_where_residuals_are_large() {
+    const RUNS: u64 = 100;
+    for wander in [true, false] {
+        let runs: Vec<_> = (0..RUNS).into_par_iter().map(|seed| changed(wander, seed)).collect();
+        let none: u32 = runs.iter().map(|run| run.0).sum();
+        let mut known: Vec<_> = runs.iter().map(|run| run.1).collect();
+        known.sort_by(f64::total_cmp);
+        let half = known[RUNS as usize / 2];
+        println!(
+            "seeds 0..{RUNS}, wander {wander}: {none} changes that were none, mass known after {half:.2} s in half"
+        );
+        assert!(none < 110 && half < 4.0, "{none} {half}");
     }
 }

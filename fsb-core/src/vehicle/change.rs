@@ -13,7 +13,8 @@
 //! in noise: r has little power where φ has most, so that its var κ, taken as that of white noise, is on the safe side.
 //!
 //! An acceleration that is expected to be there without any change, of standard deviation d, adds what it makes of r, T² d/(T l2),
-//! to the noise; over the last 10/λ as what is correlated over 2/λ.
+//! to the noise; over the last 10/λ as what is correlated over 2/λ. So does what r² has been beyond noise for long, which may be gusts, or
+//! noise that wanders: in either a rule that knew of white noise alone would find one change after another.
 //!
 //! What the innovations hide the identifier's residuals may show ([`super::residual`]).
 //!
@@ -22,6 +23,7 @@
 //! begins anew, as after a start.
 
 use super::config::ChangeRule;
+use super::long_mean::LongMeans;
 use super::residual::Residuals;
 use super::statistic::{Limits, Statistic, Terms};
 use crate::error::{ConfigError, finite, positive};
@@ -67,9 +69,15 @@ pub(super) struct Detector {
     /// At any time of this identification.
     was_known: [bool; 3],
     residuals: Residuals,
+    /// r² of each axis.
+    squares: LongMeans,
+    /// The share of one instant in them.
+    share: f32,
 }
 
 impl Detector {
+    /// r² of so many times what the noise is taken to make of it may be that of noise.
+    const NOISE: f32 = 1.5;
     /// φ² below this share of its mean says nothing.
     const LEAST: f32 = 0.1;
     /// φ² that has grown to so many times its mean, nothing being measured, is what a gap makes of it.
@@ -124,6 +132,9 @@ impl Detector {
             known: [false; 3],
             was_known: [false; 3],
             residuals: Residuals::new(relative, sigmas2, step, pooled),
+            squares: LongMeans::default(),
+            // Over 100/λ, and no more than what f32 can add up.
+            share: libm::fmax(0.01 * lambda * period, 1e-6) as f32,
         })
     }
 
@@ -146,7 +157,7 @@ impl Detector {
 
     /// After a measurement instant; `known` is k of each axis, where it is identified, and `contradicted` tells whether the motion
     /// contradicts it, which counts for one that was known. Whether a parameter has changed: with noise it may be contradicted before the innovations have shown
-    /// what k is now, and would be for as long as there is more in its sums of before than of since. Cost: about 130 operations.
+    /// what k is now, and would be for as long as there is more in its sums of before than of since. Cost: about 160 operations.
     pub fn observe(&mut self, view: &InnovationView<3>, known: &[Option<f32>; 3], contradicted: &[bool; 3]) -> bool {
         for (response, input) in self.responses.iter_mut().zip(&view.moments) {
             response.phi = response.e + response.w + input.j2;
@@ -165,6 +176,9 @@ impl Detector {
         }
         self.instants = self.instants.saturating_add(1);
         self.forget_guesses(known);
+        if self.instants > self.hold_off {
+            self.squares.add_squares(&view.innovations, self.share);
+        }
         let terms = self.terms(view);
         let share = 1.0 / self.instants as f32;
         for (usual, term) in self.usual.iter_mut().zip(&terms) {
@@ -227,16 +241,19 @@ impl Detector {
     fn terms(&self, view: &InnovationView<3>) -> [Terms; 3] {
         let mut terms = [Terms::default(); 3];
         let of_disturbance = if view.t_l2 > 0.0 { self.disturbance / view.t_l2 } else { 0.0 };
-        let of_axes = self.responses.iter().zip(&view.innovations).zip(&view.noise_variances);
-        for (axis, ((response, r), noise)) in of_axes.enumerate() {
+        let of_axes =
+            self.responses.iter().zip(&view.innovations).zip(&view.noise_variances).zip(self.squares.values());
+        for (axis, (((response, r), noise), usual)) in of_axes.enumerate() {
             if let Some(noise) = noise
                 && let Some(term) = terms.get_mut(if self.pooled { 0 } else { axis })
             {
                 let square = response.phi * response.phi;
                 term.product += r * response.phi;
                 term.square += square;
-                term.variance += square * (noise * self.innovation_gain);
-                term.disturbed += square * (of_disturbance * of_disturbance);
+                let of_noise = noise * self.innovation_gain;
+                term.variance += square * of_noise;
+                let (expected, usual) = (of_disturbance * of_disturbance, usual - Self::NOISE * of_noise);
+                term.disturbed += square * if usual > expected { usual } else { expected };
             }
         }
         terms
@@ -256,6 +273,7 @@ impl Stored for Detector {
         self.known.pass(archive);
         self.was_known.pass(archive);
         self.residuals.pass(archive);
+        self.squares.pass(archive);
     }
 }
 
@@ -279,6 +297,7 @@ impl Detector {
         let is_square = |x: f32| (0.0..=largest).contains(&x);
         self.responses.iter().flat_map(|response| [response.phi, response.e, response.w]).all(|x| x.abs() <= Self::MOST)
             && self.residuals.is_sound()
+            && self.squares.are_sound(largest)
             && self.usual.iter().all(|&x| is_square(x))
             && self.statistics.iter().flat_map(|statistic| &statistic.sums).all(|sum| {
                 sum.product.abs() <= largest

@@ -34,7 +34,7 @@ use crate::readout::{ParameterStatus, Readout};
 /// Non-finite policy: what is not finite, beyond its limit or cannot be true ([`crate::guard`]) is rejected, counted and told in
 /// [`Events`]; a measurement is then missing, a force or torque is replaced by the one before. From three in
 /// succession on nothing is learned until they have acted: what is known stays. No allocation, no panic, no transcendental. Cost of an update: two
-/// estimators of three axes, and about 350 operations beside them (50 more with a lag, 260 with a rule for changes), of them 90
+/// estimators of three axes, and about 350 operations beside them (50 more with a lag, 290 with a rule for changes), of them 90
 /// for the attitude, 45 for turning the force and 200 for the gyroscopic moment; it does not depend on the latency.
 #[derive(Clone, Debug)]
 pub struct VehicleEstimator<const D: usize> {

@@ -56,6 +56,7 @@ mod delay;
 mod design;
 mod estimator;
 mod gyroscopic;
+mod long_mean;
 mod measured;
 mod output;
 mod readings;
