@@ -2,6 +2,7 @@
 
 use super::config::GuardDesign;
 use super::course::{Course, lies_within};
+use super::held::Held;
 use super::verdict::Verdict;
 
 /// What the gate of one axis remembers.
@@ -17,8 +18,8 @@ pub(super) struct Gate {
     pub(super) blind: u16,
     /// Improbable measurements in a row that agree with each other.
     pub(super) run: u16,
-    /// How often the last measurement has come again.
-    pub(super) repeated: u16,
+    /// How values come again.
+    pub(super) held: Held,
     /// The observer's innovation after the last measurement that was used.
     pub(super) innovation: f32,
     /// Those of the improbable ones.
@@ -96,13 +97,15 @@ impl Gate {
         let stretch = 1.0 + design.lambda_t * gap;
         // The velocity may be off, and what it does was not seen. A large innovation is on its way back to zero.
         let unseen = design.drift * f32::from(self.blind) + design.fall * gap * gap;
-        let known = design.step + unseen + design.decay * self.innovation.abs();
+        let held = self.held.allowance(design.fall, design.rest);
+        let known = design.step + held + unseen + design.decay * self.innovation.abs();
         let trusted = self.values >= Self::ENOUGH;
         // What was expected is no outlier: it may be the last one that was, and passed.
         let off = if innovation.abs() < step.abs() { innovation } else { step };
         if !trusted || lies_within(off, noise * stretch * stretch, known) {
             if self.gap == 0 {
                 self.learn(step * step);
+                self.held.learn(step);
             }
             return Verdict::Taken;
         }
@@ -115,6 +118,7 @@ impl Gate {
         }
         if self.run >= design.jump_after {
             // The next innovation is about that of before the jump.
+            self.held.learn(step);
             return Verdict::Jumped(step);
         }
         Verdict::Improbable
@@ -145,7 +149,7 @@ impl Gate {
 
     /// Whether its level can have been learned.
     pub fn is_sound(&self) -> bool {
-        self.level >= 0.0
+        self.level >= 0.0 && self.held.is_sound()
     }
 
     /// Nothing was measured.
@@ -157,16 +161,16 @@ impl Gate {
     fn is_frozen(&mut self, y: f32, design: &GuardDesign) -> bool {
         let looked_for = design.frozen_after > 0;
         if y.to_bits() == self.last {
-            self.repeated = self.repeated.saturating_add(1);
-        } else if looked_for && self.repeated > design.frozen_after {
+            self.held.repeated = self.held.repeated.saturating_add(1);
+        } else if looked_for && self.held.repeated > design.frozen_after {
             // One that differs may be the frozen one with a fault of its own: it takes two to be alive.
-            self.repeated = design.frozen_after;
+            self.held.repeated = design.frozen_after;
             return true;
         } else {
-            self.repeated = 0;
+            self.held.next();
             self.last = y.to_bits();
         }
-        looked_for && self.repeated > design.frozen_after
+        looked_for && self.held.repeated > design.frozen_after
     }
 
     fn learn(&mut self, square: f32) {

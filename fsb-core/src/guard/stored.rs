@@ -5,7 +5,7 @@ use super::guarded::Guarded;
 use super::verdict::{Rejections, Verdict};
 use crate::snapshot::{Archive, Fingerprint, Stored, Whole, snapshots, stored};
 
-stored!(Gate { level, values, gap, blind, run, repeated, innovation, course, last });
+stored!(Gate { level, values, gap, blind, run, held, innovation, course, last });
 stored!(Rejections { missing, non_finite, beyond_limit, improbable, frozen, jumps, pushes, faults });
 
 impl Stored for Verdict {

@@ -206,7 +206,7 @@ fn a_restart() {
     assert!(before.run == 1 && before.gap == 2 && before.course.last == 6.0 && before.last != 0);
     gate.restart();
     assert_eq!((gate.level, gate.values, gate.gap()), (before.level, before.values, 2));
-    assert_eq!((gate.run, gate.innovation, gate.course.count, gate.last, gate.repeated), (0, 0.0, 0, 0, 0));
+    assert_eq!((gate.run, gate.innovation, gate.course.count, gate.last, gate.held.repeated), (0, 0.0, 0, 0, 0));
 }
 
 #[test]
