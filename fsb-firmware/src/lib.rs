@@ -9,10 +9,12 @@
 //! | `control_loop` | one tick, and the pacing |
 //! | `config` | plain data |
 //! | `sample` | what comes in, and what went out |
-//! | `axes` | six axes: two estimators, six controllers |
+//! | `axes` | six axes: two estimators behind gates, six controllers |
 //! | `allocation` | wrench to thrusts and back |
 //! | `hexarotor` | that matrix for passively tilted rotors |
+//! | `watch` | which axes are measured and have a state, and what of that is told |
 //! | `attitude` | the rotation matrix |
+//! | `bearing` | the attitude that turns forces, and for how long it may |
 //! | `events` | what happened, with its tick |
 //!
 //! No allocation, no panic and no transcendental in a tick; `attitude_from_angles` (feature `micromath`) is outside of it.
@@ -20,14 +22,20 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+// The plant is that of the firmware, which is another crate.
+#[cfg(test)]
+extern crate self as fsb_firmware;
+
 mod allocation;
 mod attitude;
 mod axes;
+mod bearing;
 mod config;
 mod control_loop;
 mod events;
 mod hexarotor;
 mod sample;
+mod watch;
 
 pub use allocation::{Allocation, AllocationError};
 #[cfg(feature = "micromath")]
