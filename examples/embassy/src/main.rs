@@ -89,7 +89,8 @@ async fn control(mut flight: ControlLoop<Motor, Marker>) {
         TICK.wait().await;
         sample = SAMPLE.try_take().or(sample);
         let Ok(report) = flight.tick(sample.take().as_ref(), &[Reference::default(); 6]);
-        let flying = report.states.iter().zip(0..).fold(0, |bits, (state, axis)| bits | u32::from(state.is_some()) << axis);
+        let flying =
+            report.states.iter().zip(0..).fold(0, |bits, (state, axis)| bits | u32::from(state.is_some()) << axis);
         FLYING.store(flying, Ordering::Relaxed);
         // What was lost and why: a vehicle logs it, as defmt does with the feature of that name.
         while flight.events().take().is_some() {}
