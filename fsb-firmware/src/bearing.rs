@@ -17,11 +17,9 @@ pub(crate) struct Bearing {
     age: u32,
     /// Those that the last good one may be used for.
     bridge: u32,
-    /// Good ones in a row that end an outage, so far and needed.
-    good: u32,
+    /// Control periods without a bad one that end an outage, and since the last one; saturates.
     quiet: u32,
-    /// A bad one was told in this outage.
-    told: bool,
+    good: u32,
 }
 
 impl Bearing {
@@ -29,7 +27,7 @@ impl Bearing {
     pub fn of(config: &LoopConfig) -> Self {
         let periods = |time: f64| libm::round(time / config.rotation.period) as u32;
         let (bridge, quiet) = (periods(config.rotation_guard.bridge), periods(1.0));
-        Self { matrix: LEVEL, known: false, age: 0, bridge, good: 0, quiet, told: false }
+        Self { matrix: LEVEL, known: false, age: 0, bridge, quiet, good: u32::MAX }
     }
 
     /// Where forces point now.
@@ -44,6 +42,7 @@ impl Bearing {
 
     /// A tick with a sample's attitude or without one; `trusted` where the angles that came with it were.
     pub fn update(&mut self, attitude: Option<&Attitude>, trusted: bool, tick: u32, events: &mut Events) {
+        self.good = self.good.saturating_add(1);
         match attitude {
             Some(matrix) if trusted && is_rotation(matrix) => {
                 self.matrix = *matrix;
@@ -52,10 +51,6 @@ impl Bearing {
                     self.known = true;
                     events.push(tick, Event::AttitudeUsable);
                 }
-                if self.told {
-                    self.good += 1;
-                    self.told = self.good < self.quiet;
-                }
             }
             other => self.age_by_a_tick(other.is_some(), tick, events),
         }
@@ -63,11 +58,10 @@ impl Bearing {
 
     fn age_by_a_tick(&mut self, rejected: bool, tick: u32, events: &mut Events) {
         if rejected {
-            self.good = 0;
-            if !self.told {
-                self.told = true;
+            if self.good > self.quiet {
                 events.push(tick, Event::AttitudeRejected);
             }
+            self.good = 0;
         }
         if self.age <= self.bridge {
             self.age += 1;

@@ -9,8 +9,8 @@ use heapless::Deque;
 
 /// Something worth a line in a log. Axes are 0 to 5: x, y, z, φ, θ, ψ; parameters 0 to 3: 1/m, 1/Ix, 1/Iy, 1/Iz.
 ///
-/// What goes on is told when it begins and when it ends, and what flickers once: an axis's outage ends when every measurement of a
-/// second has been used, and each reason is told once in it.
+/// What goes on is told when it begins and when it ends, and what flickers once: an outage ends when nothing has been wrong for a second,
+/// and each reason is told once in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

@@ -9,7 +9,7 @@ use fsb_core::guard::Verdict;
 pub(crate) struct Patience {
     /// Measurement instants without a measurement that are nothing special.
     pub missing: u16,
-    /// Measurements in a row, all used, that end an outage.
+    /// Instants in a row without anything special that end an outage.
     pub quiet: u16,
     /// Control periods after which an axis that has never had a state is told.
     pub start: u32,
@@ -20,7 +20,7 @@ pub(crate) struct Patience {
 struct Measured {
     /// Instants since one was used.
     gap: u16,
-    /// Used in a row since the outage's last one that was not.
+    /// Instants since one at which there was something to tell.
     good: u16,
     /// Reasons told in this outage, by bits; none where there is no outage.
     told: u8,
@@ -98,17 +98,7 @@ impl Measured {
             Verdict::Pushed(by) => events.push(tick, Event::Pushed(number, by)),
             _ => {}
         }
-        if verdict.is_used() {
-            self.gap = 0;
-            self.good = self.good.saturating_add(1);
-            if self.told != 0 && self.good >= patience.quiet {
-                self.told = 0;
-                events.push(tick, Event::MeasuredAgain(number));
-            }
-            return;
-        }
-        self.good = 0;
-        self.gap = self.gap.saturating_add(1);
+        self.gap = if verdict.is_used() { 0 } else { self.gap.saturating_add(1) };
         let reason = match verdict {
             Verdict::NonFinite => 1,
             Verdict::BeyondLimit => 2,
@@ -120,6 +110,11 @@ impl Measured {
         if reason & !self.told != 0 {
             self.told |= reason;
             events.push(tick, Event::MeasurementRejected(number, verdict));
+        }
+        self.good = if reason == 0 { self.good.saturating_add(1) } else { 0 };
+        if self.told != 0 && self.good >= patience.quiet {
+            self.told = 0;
+            events.push(tick, Event::MeasuredAgain(number));
         }
     }
 }
@@ -152,6 +147,14 @@ mod tests {
         assert_eq!(noted(&[n, n, n, y, n, n, n, y, y]), []);
         let long = [n, n, n, n, n, y, y, y, y, y];
         assert_eq!(noted(&long), [(3, Event::MeasurementRejected(3, n)), (8, Event::MeasuredAgain(3))]);
+    }
+
+    /// A slow receiver has gaps all the time: they neither begin an outage nor keep it from ending.
+    #[test]
+    fn short_gaps_are_nothing() {
+        let (y, n, i) = (Verdict::Taken, Verdict::Missing, Verdict::Improbable);
+        let events = noted(&[y, n, n, y, n, i, y, n, n, y, n, n]);
+        assert_eq!(events, [(5, Event::MeasurementRejected(3, i)), (9, Event::MeasuredAgain(3))]);
     }
 
     /// Each reason once; the outage ends with the fourth in a row that is used.
