@@ -69,10 +69,10 @@ impl Allocation {
 
     /// Thrusts \[N\] that the motors have, for a `wrench` that needs others: the torque first, as a vehicle that is not held upright
     /// falls; then the lift, as far as it leaves room for the torque; the side force with what is left. Where the rotors do not lift by
-    /// pulling up each, every thrust is bounded for itself. What is beyond 1e6 N or N m counts as that. Cost: about 250 operations.
+    /// pulling up each, every thrust is bounded for itself. What is beyond 1e6 N or N m counts as that, what is no number as nothing. Cost: about 250 operations.
     #[inline(never)]
     pub fn bounded(&self, wrench: &[f32; N]) -> [f32; N] {
-        let [x, y, z, p, q, r] = wrench.map(|entry| within(entry, -1e6, 1e6));
+        let [x, y, z, p, q, r] = wrench.map(|entry| if entry.is_nan() { 0.0 } else { within(entry, -1e6, 1e6) });
         let Some(lift) = &self.lift else {
             return self.thrusts(&[x, y, z, p, q, r]).map(|thrust| within(thrust, 0.0, self.thrust_max));
         };
@@ -96,8 +96,9 @@ impl Allocation {
         for ((thrust, per), aside) in thrusts.iter_mut().zip(lift).zip(&aside) {
             *thrust += z / per;
             let left = if *aside > 0.0 { self.thrust_max - *thrust } else { -*thrust };
-            // Of a motor that is not asked for more this is no number.
-            share = smaller(left / aside, share);
+            if *aside != 0.0 {
+                share = smaller(left / aside, share);
+            }
         }
         let share = within(share, 0.0, 1.0);
         for (thrust, aside) in thrusts.iter_mut().zip(&aside) {
@@ -242,7 +243,32 @@ mod tests {
                 wrench[entry] = value;
                 let thrusts = allocation.bounded(&wrench);
                 assert!(thrusts.iter().all(|thrust| (0.0..=6.0).contains(thrust)), "{wrench:?} {thrusts:?}");
+                let made = allocation.wrench(&thrusts);
+                assert!(!value.is_nan() || made[entry].abs() < 1e-4, "{wrench:?} {made:?}");
             }
+        }
+    }
+
+    /// Also where a motor has no share in it: a side force is scaled, and not left out.
+    #[test]
+    fn a_side_force_is_what_is_left() {
+        // A force along x or y is one motor more and one less, and all of them lift.
+        let mut forward = [[0.0; N]; N];
+        for (motor, row) in forward.iter_mut().enumerate() {
+            row[motor] = 1.0;
+        }
+        forward[2] = [1.0; N];
+        (forward[0][5], forward[1][5], forward[3][5], forward[4][5], forward[5]) =
+            (-1.0, -1.0, -1.0, -1.0, [1.0, 1.0, 1.0, -1.5, -1.5, 0.0]);
+        let allocation = Allocation::new(&forward, 6.0).unwrap();
+        let zeros = |thrusts: [f32; N]| thrusts.iter().filter(|thrust| **thrust == 0.0).count();
+        assert!(allocation.lift.is_some() && zeros(allocation.thrusts(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0])) > 0);
+        let lifted = [0.0, 0.0, 12.0, 0.0, 0.0, 0.0];
+        for (axis, side) in [(0, 50.0), (0, -50.0), (1, 50.0), (1, -50.0)] {
+            let mut wrench = lifted;
+            wrench[axis] = side;
+            let made = allocation.wrench(&allocation.bounded(&wrench));
+            assert!(made[axis] * side.signum() > 1.0 && (made[2] - 12.0).abs() < 1e-4, "{wrench:?} {made:?}");
         }
     }
 
