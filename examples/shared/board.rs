@@ -52,11 +52,18 @@ pub fn set_up_port(baud: u32) {
     set(USART1 + 0x0C, 0xFFFF, (1 << 13) | (1 << 5) | (1 << 2)); // on, receive, interrupt
 }
 
-/// The byte that has come, if one has.
+/// The byte that has come, if one has. To be called by the interrupt, or as often as bytes come.
 pub fn received() -> Option<u8> {
+    const CAME: u32 = 1 << 5;
+    /// Another one came before it was taken: it calls the interrupt too, until the data register is read.
+    const OVERRUN: u32 = 1 << 3;
     let (status, data) = (USART1 as *const u32, (USART1 + 4) as *const u32);
-    // SAFETY: reading the two in this order takes the byte; nobody else reads them.
-    unsafe { (status.read_volatile() & (1 << 5) != 0).then(|| data.read_volatile() as u8) }
+    // SAFETY: reading the two in this order takes the byte, and ends an overrun; nobody else reads them.
+    unsafe {
+        let status = status.read_volatile();
+        let byte = (status & (CAME | OVERRUN) != 0).then(|| data.read_volatile() as u8);
+        byte.filter(|_| status & CAME != 0)
+    }
 }
 
 /// A motor: the address of its compare register.

@@ -25,6 +25,19 @@ pub fn attitude_from_angles([roll, pitch, yaw]: [f32; 3]) -> Attitude {
     ]
 }
 
+/// Whether it is one, to 0.02 in each product of axes: the first two of length one and at right angles, the third their product.
+/// Zeros are none, and neither is NaN. Cost: about 45 operations.
+pub(crate) fn is_rotation(&[x, y, z]: &Attitude) -> bool {
+    let small = |off: f32| off.abs() <= 0.02;
+    let ([a, b, c], [d, e, f], [g, h, i]) = (x, y, z);
+    small(a * a + b * b + c * c - 1.0)
+        && small(d * d + e * e + f * f - 1.0)
+        && small(a * d + b * e + c * f)
+        && small(b * f - c * e - g)
+        && small(c * d - a * f - h)
+        && small(a * e - b * d - i)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,6 +79,31 @@ mod tests {
         }
     }
 
+    #[test]
+    fn what_is_a_rotation() {
+        let good = exact([0.3, -0.2, 1.1]).map(|row| row.map(|entry| entry as f32));
+        assert!(is_rotation(&good));
+        let bad = |change: fn(&mut Attitude)| {
+            let mut matrix = good;
+            change(&mut matrix);
+            !is_rotation(&matrix)
+        };
+        assert!(bad(|m| *m = [[0.0; 3]; 3]));
+        assert!(bad(|m| m[2] = m[2].map(|entry| -entry)), "a reflection");
+        assert!(bad(|m| m.swap(0, 1)));
+        for entry in 0..9 {
+            for value in [f32::NAN, f32::INFINITY, 1e30, 2.0] {
+                let mut matrix = good;
+                matrix[entry / 3][entry % 3] = value;
+                assert!(!is_rotation(&matrix), "{entry} {value}");
+            }
+            // What rounding, or micromath, does.
+            let mut matrix = good;
+            matrix[entry / 3][entry % 3] += 2.5e-3;
+            assert!(is_rotation(&matrix), "{entry}");
+        }
+    }
+
     #[cfg(feature = "micromath")]
     #[test]
     fn accuracy_of_micromath() {
@@ -76,6 +114,7 @@ mod tests {
                     let angles = [i, j, k].map(|n| f64::from(n) * core::f64::consts::PI / 30.0);
                     let got = attitude_from_angles(angles.map(|a| a as f32));
                     worst = worst.max(largest_error(&got, &exact(angles)));
+                    assert!(is_rotation(&got), "{angles:?}");
                 }
             }
         }

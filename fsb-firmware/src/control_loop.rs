@@ -2,6 +2,7 @@
 
 use crate::allocation::Allocation;
 use crate::axes::Axes;
+use crate::bearing::Bearing;
 use crate::config::{LoopConfig, LoopConfigError};
 use crate::events::{Event, Events};
 use crate::sample::{Attitude, Report, Sample};
@@ -11,7 +12,11 @@ use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use fsb_core::control::{Reference, to_body};
 use fsb_core::estimator::{Counters, StateStatus};
+use fsb_core::guard::Rejections;
 use fsb_core::readout::{Parameter, ParameterStatus};
+
+#[cfg(test)]
+mod tests;
 
 /// A peripheral failed. The tick was completed all the same: every other motor has its duty, the estimators their input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +46,7 @@ pub struct ControlLoop<M, P> {
     allocation: Allocation,
     motors: [M; 6],
     marker: P,
-    attitude: Attitude,
+    bearing: Bearing,
     saturated: u8,
     tick: u32,
     events: Events,
@@ -58,7 +63,7 @@ impl<M: SetDutyCycle, P: OutputPin> ControlLoop<M, P> {
             allocation: config.allocation,
             motors,
             marker,
-            attitude: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            bearing: Bearing::of(config),
             saturated: 0,
             tick: 0,
             events: Events::default(),
@@ -90,22 +95,23 @@ impl<M: SetDutyCycle, P: OutputPin> ControlLoop<M, P> {
     ) -> Result<Report, LoopError<M::Error, P::Error>> {
         let tick = self.tick;
         self.tick = tick.wrapping_add(1);
-        if let Some(sample) = sample {
-            if self.axes.measure(sample).is_err() {
-                self.events.push(tick, Event::SampleEarly);
-            }
-            if sample.attitude.iter().flatten().all(|entry| entry.is_finite()) {
-                self.attitude = sample.attitude;
-            } else {
-                self.events.push(tick, Event::AttitudeRejected);
-            }
+        let trusted = self.axes.measure(sample, tick, &mut self.events);
+        self.bearing.update(sample.map(|sample| &sample.attitude), trusted, tick, &mut self.events);
+        let pointed = self.bearing.is_known();
+        self.axes.point(pointed);
+        let attitude = *self.bearing.matrix();
+        let states = self.axes.states(tick, &mut self.events);
+        let [x, y, z, p, q, r] = self.axes.input(&states, wanted, pointed, tick, &mut self.events);
+        let [x, y, z] = to_body(&attitude, &[x, y, z]);
+        let wrench = [x, y, z, p, q, r];
+        let mut thrusts = self.allocation.thrusts(&wrench);
+        let saturated = self.allocation.beyond(&thrusts);
+        if saturated != 0 {
+            thrusts = self.allocation.bounded(&wrench);
         }
-        let states = self.axes.states();
-        let [x, y, z, p, q, r] = self.axes.input(&states, wanted, tick, &mut self.events);
-        let [x, y, z] = to_body(&self.attitude, &[x, y, z]);
-        let (duties, saturated, thrusts, outcome) = self.drive(&self.allocation.thrusts(&[x, y, z, p, q, r]));
+        let (duties, thrusts, outcome) = self.drive(&thrusts);
         let [x, y, z, p, q, r] = self.allocation.wrench(&thrusts);
-        let [x, y, z] = to_world(&self.attitude, &[x, y, z]);
+        let [x, y, z] = to_world(&attitude, &[x, y, z]);
         let input = [x, y, z, p, q, r];
         self.axes.apply(&input);
         self.note_saturation(saturated, tick);
@@ -113,20 +119,15 @@ impl<M: SetDutyCycle, P: OutputPin> ControlLoop<M, P> {
         outcome.map(|()| Report { duties, saturated, input, states })
     }
 
-    /// Sets the duties nearest to `wanted` \[N\]; returns them, the motors that saturate, and the thrusts \[N\] they make.
+    /// Sets the duties nearest to `wanted` \[N\], which the motors have; returns them, and the thrusts \[N\] they make.
     #[expect(clippy::type_complexity, reason = "one caller")]
-    fn drive(&mut self, wanted: &[f32; 6]) -> ([u16; 6], u8, [f32; 6], Result<(), LoopError<M::Error, P::Error>>) {
-        let (mut duties, mut thrusts, mut saturated, mut outcome) = ([0; 6], [0.0; 6], 0, Ok(()));
+    fn drive(&mut self, wanted: &[f32; 6]) -> ([u16; 6], [f32; 6], Result<(), LoopError<M::Error, P::Error>>) {
+        let (mut duties, mut thrusts, mut outcome) = ([0; 6], [0.0; 6], Ok(()));
         let outs = duties.iter_mut().zip(&mut thrusts);
         for (index, ((motor, &wanted), (duty, thrust))) in self.motors.iter_mut().zip(wanted).zip(outs).enumerate() {
             let full = f32::from(motor.max_duty_cycle().max(1));
             let share = wanted / self.allocation.thrust_max();
-            if !(0.0..=1.0).contains(&share) {
-                saturated |= 1 << index;
-            }
-            let bounded = if share > 1.0 { 1.0 } else { share };
-            // `as` takes what is negative to 0, and what is NaN.
-            *duty = (bounded * full + 0.5) as u16;
+            *duty = (share * full + 0.5) as u16;
             *thrust = f32::from(*duty) / full * self.allocation.thrust_max();
             if let Err(error) = motor.set_duty_cycle(*duty)
                 && outcome.is_ok()
@@ -134,7 +135,7 @@ impl<M: SetDutyCycle, P: OutputPin> ControlLoop<M, P> {
                 outcome = Err(LoopError::Motor(index as u8, error));
             }
         }
-        (duties, saturated, thrusts, outcome)
+        (duties, thrusts, outcome)
     }
 
     fn note_saturation(&mut self, saturated: u8, tick: u32) {
@@ -187,8 +188,13 @@ impl<M: SetDutyCycle, P: OutputPin> ControlLoop<M, P> {
         [x, y, z, p, q, r]
     }
 
-    /// What the translation's and the rotation's estimator missed or rejected.
-    pub const fn counters(&self) -> [Counters; 2] {
+    /// What the translation's and the rotation's gate turned away, by reason.
+    pub const fn rejections(&self) -> [Rejections; 2] {
+        [self.axes.translation.rejections(), self.axes.rotation.rejections()]
+    }
+
+    /// What the translation's and the rotation's estimator missed, what its gate turned away among it.
+    pub fn counters(&self) -> [Counters; 2] {
         [self.axes.translation.counters(), self.axes.rotation.counters()]
     }
 

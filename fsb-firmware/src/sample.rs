@@ -5,14 +5,15 @@ use fsb_core::estimator::AxisState;
 /// R of (2), body to world, by rows: `[i][j]` is the component of body axis j along world axis i.
 pub type Attitude = [[f32; 3]; 3];
 
-/// One measurement of the six axes; `None` (or NaN) is a missing one.
+/// One measurement of the six axes; `None` is a missing one. What is no number, or cannot be true, is not used and told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// x, y, z in the world frame \[m\], z up.
     pub position: [Option<f32>; 3],
-    /// φ, θ, ψ \[rad\].
+    /// φ, θ, ψ \[rad\], without turns taken out: a yaw that goes on from π at -π is a jump of the sensor to the loop.
     pub angles: [Option<f32>; 3],
-    /// The same attitude as a matrix. Where an entry is not finite the last good matrix is used.
+    /// The same attitude as a matrix. Where it is no rotation, or one of the angles that came with it is not believed, the last good one is
+    /// used, for as long as the rotation is bridged. All NaN where there is none.
     pub attitude: Attitude,
 }
 

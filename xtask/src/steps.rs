@@ -74,7 +74,11 @@ pub const STEPS: &[Step] = &[
     Step { name: "size", about: "state, code and stack of a tick, within budgets.toml", run: size::run },
     Step { name: "panic", about: "no panic can be reached, by linking without a panic handler", run: panics::run },
     Step { name: "disassembly", about: "no allocation, transcendental or soft float in a tick", run: disassembly::run },
-    Step { name: "examples", about: "the RTIC and the Embassy task build for the target", run: examples::run },
+    Step {
+        name: "examples",
+        about: "the RTIC and the Embassy task build for the target; the first loses its receiver on the emulator",
+        run: examples::run,
+    },
     Step {
         name: "c",
         about: "the C interface: header, tests, size, the same bits on the target",

@@ -30,6 +30,8 @@ const RATE: u32 = 1000;
 static TICK: Signal<CriticalSectionRawMutex, ()> = Signal::new();
 /// Ticks that were due while the one before had not been taken up: lost. For telemetry, or a debugger.
 static OVERRUNS: AtomicU32 = AtomicU32::new(0);
+/// Axes that have a state, by bits: likewise. The others have the fallback input: a vehicle lands, or hands over.
+static FLYING: AtomicU32 = AtomicU32::new(0);
 static SAMPLE: Signal<CriticalSectionRawMutex, Sample> = Signal::new();
 /// Bytes of the receiver.
 static BYTES: Channel<CriticalSectionRawMutex, u8, 64> = Channel::new();
@@ -56,7 +58,11 @@ fn SysTick() {
 async fn main(spawner: Spawner) {
     let geometry = TiltedHexarotor { arm: 0.25, tilt: 0.35, drag_ratio: 0.02 };
     let allocation = Allocation::new(&geometry.matrix(), 6.0).expect("a tilted hexarotor");
-    let config = LoopConfig::new(1.0 / f64::from(RATE), 1.5, [0.015, 0.015, 0.03], allocation);
+    let mut config = LoopConfig::new(1.0 / f64::from(RATE), 1.5, [0.015, 0.015, 0.03], allocation);
+    // 36 frames a second: most ticks have none, which is nothing to tell. Four that repeat are of a receiver that is stuck.
+    config.missing_after = 0.1;
+    config.translation_guard.frozen_after = 4;
+    config.rotation_guard.frozen_after = 4;
     let (motors, marker) = board::set_up();
     board::set_up_port(9600);
     let flight = ControlLoop::new(&config, motors, marker).expect("a good configuration");
@@ -82,7 +88,12 @@ async fn control(mut flight: ControlLoop<Motor, Marker>) {
     loop {
         TICK.wait().await;
         sample = SAMPLE.try_take().or(sample);
-        let Ok(_) = flight.tick(sample.take().as_ref(), &[Reference::default(); 6]);
+        let Ok(report) = flight.tick(sample.take().as_ref(), &[Reference::default(); 6]);
+        let flying =
+            report.states.iter().zip(0..).fold(0, |bits, (state, axis)| bits | u32::from(state.is_some()) << axis);
+        FLYING.store(flying, Ordering::Relaxed);
+        // What was lost and why: a vehicle logs it, as defmt does with the feature of that name.
+        while flight.events().take().is_some() {}
     }
 }
 

@@ -5,13 +5,15 @@
 
 #[path = "../../shared/board.rs"]
 mod board;
+#[cfg(feature = "emulator")]
+mod emulator;
 #[path = "../../shared/frame.rs"]
 mod frame;
 
-use core::panic::PanicInfo;
-
+// On the emulator it is that of `semihosting`, which prints.
+#[cfg(not(feature = "emulator"))]
 #[panic_handler]
-fn panic(_: &PanicInfo) -> ! {
+fn panic(_: &core::panic::PanicInfo) -> ! {
     cortex_m::asm::udf()
 }
 
@@ -35,6 +37,8 @@ mod app {
         parameters: [Option<Parameter>; 4],
         /// Overruns so far, likewise.
         late: u32,
+        /// Axes that have a state, by bits, likewise. The others have the fallback input: a vehicle lands, or hands over.
+        flying: u8,
     }
 
     #[local]
@@ -60,16 +64,19 @@ mod app {
 
         let geometry = TiltedHexarotor { arm: 0.25, tilt: 0.35, drag_ratio: 0.02 };
         let allocation = Allocation::new(&geometry.matrix(), 6.0).expect("a tilted hexarotor");
-        let config = LoopConfig::new(1.0 / f64::from(RATE), 1.5, [0.015, 0.015, 0.03], allocation);
+        let mut config = LoopConfig::new(1.0 / f64::from(RATE), 1.5, [0.015, 0.015, 0.03], allocation);
+        // 443 frames a second at most: some ticks have none. Twenty that repeat are of a receiver that is stuck.
+        config.translation_guard.frozen_after = 20;
+        config.rotation_guard.frozen_after = 20;
         let flight = ControlLoop::new(&config, motors, marker).expect("a good configuration");
         (
-            Shared { sample: None, parameters: [None; 4], late: 0 },
+            Shared { sample: None, parameters: [None; 4], late: 0, flying: 0 },
             Local { flight, timer: device.TIM2, decoder: Decoder::default(), ticks: 0, overruns: 0 },
         )
     }
 
     /// The control period. Nothing that it waits for can take long: the tasks below only copy under their lock.
-    #[task(binds = TIM2, priority = 3, local = [flight, timer, ticks, overruns], shared = [sample, parameters, late])]
+    #[task(binds = TIM2, priority = 3, local = [flight, timer, ticks, overruns], shared = [sample, parameters, late, flying])]
     fn tick(mut context: tick::Context) {
         context.local.timer.sr().modify(|_, w| w.uif().clear());
         let sample = context.shared.sample.lock(Option::take);
@@ -78,7 +85,9 @@ mod app {
             return;
         }
         let wanted = [Reference::default(); 6];
-        let Ok(_) = context.local.flight.tick(sample.as_ref(), &wanted);
+        let Ok(report) = context.local.flight.tick(sample.as_ref(), &wanted);
+        let flying =
+            report.states.iter().zip(0..).fold(0, |bits, (state, axis)| bits | u8::from(state.is_some()) << axis);
         *context.local.ticks = context.local.ticks.checked_add(1).unwrap_or(1);
         if context.local.timer.sr().read().uif().bit_is_set() {
             *context.local.overruns = context.local.overruns.saturating_add(1);
@@ -88,9 +97,17 @@ mod app {
             context.shared.parameters.lock(|parameters| *parameters = now);
             let late = *context.local.overruns;
             context.shared.late.lock(|told| *told = late);
+            context.shared.flying.lock(|told| *told = flying);
             // Refused where the last one is still being sent.
             let _ = telemetry::spawn();
         }
+        // What was lost and why. A vehicle logs it.
+        while let Some(_event) = context.local.flight.events().take() {
+            #[cfg(feature = "emulator")]
+            crate::emulator::tell(&_event);
+        }
+        #[cfg(feature = "emulator")]
+        crate::emulator::judge(*context.local.ticks, flying);
     }
 
     #[task(binds = USART1, priority = 2, local = [decoder], shared = [sample])]
@@ -106,15 +123,22 @@ mod app {
         }
     }
 
-    /// Ten times a second, when nothing else is to do: overruns, and 1/m with its variance once it is known, over ITM port 0.
-    #[task(priority = 1, shared = [parameters, late])]
+    /// Ten times a second, when nothing else is to do: overruns, axes that have a state, and 1/m with its variance once it is known, over
+    /// ITM port 0, if somebody listens.
+    #[task(priority = 1, shared = [parameters, late, flying])]
     async fn telemetry(mut context: telemetry::Context) {
         let [mass, ..] = context.shared.parameters.lock(|parameters| *parameters);
         let late = context.shared.late.lock(|late| *late);
+        let flying = context.shared.flying.lock(|flying| *flying);
         // SAFETY: the only user of the ITM.
-        let port = unsafe { &mut (*cortex_m::peripheral::ITM::PTR).stim[0] };
+        let itm = unsafe { &mut *cortex_m::peripheral::ITM::PTR };
+        // The port is never ready where it is off.
+        if itm.tcr.read() & 1 == 0 || itm.ter[0].read() & 1 == 0 {
+            return;
+        }
+        let port = &mut itm.stim[0];
         let known = mass.map_or([f32::NAN; 2], |known| [known.value, known.variance]).map(f32::to_bits);
-        for word in [late, known[0], known[1]] {
+        for word in [late, u32::from(flying), known[0], known[1]] {
             while !port.is_fifo_ready() {}
             port.write_u32(word);
         }

@@ -142,9 +142,16 @@ impl Gate {
         self.gap
     }
 
-    /// The observer starts anew: what was learned of the noise stays, and so does the age of the last measurement.
+    /// The observer starts anew: what was learned of the noise stays, and so do the age of the last measurement and whether the
+    /// sensor has frozen, which is none the more alive for it.
     pub fn restart(&mut self) {
-        *self = Self { level: self.level, values: self.values, gap: self.gap, blind: self.blind, ..Self::default() };
+        let Self { level, values, gap, blind, .. } = *self;
+        *self = Self { level, values, gap, blind, ..Self::default() }.of_sensor(self);
+    }
+
+    /// With what `other` knows of its sensor: the bits that came last, and how values come again.
+    pub fn of_sensor(self, other: &Self) -> Self {
+        Self { held: other.held, last: other.last, ..self }
     }
 
     /// Whether its level can have been learned.

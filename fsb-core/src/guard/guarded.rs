@@ -258,10 +258,12 @@ impl<const N: usize, const P: usize> Guarded<N, P> {
         self.interrupted = false;
     }
 
-    /// As [`Estimator::reset`]; what was learned of the noise goes as well.
+    /// As [`Estimator::reset`]; what was learned of the noise goes as well. A sensor that has frozen is still frozen.
     pub fn reset(&mut self) {
         self.estimator.reset();
-        self.gates = [self.expecting; N];
+        for gate in &mut self.gates {
+            *gate = self.expecting.of_sensor(gate);
+        }
         self.verdicts = [Verdict::Missing; N];
         self.last = [InputMoments::ZERO; N];
         self.instants = 0;

@@ -194,7 +194,7 @@ fn the_innovation_of_a_gap() {
     }
 }
 
-/// What was learned of the noise and the age of the last measurement outlive a restart, and nothing else does.
+/// What was learned of the noise, the age of the last measurement and what came last outlive a restart, and nothing else does.
 #[test]
 fn a_restart() {
     let design = design(8.0, 0.0, 0.1);
@@ -206,7 +206,30 @@ fn a_restart() {
     assert!(before.run == 1 && before.gap == 2 && before.course.last == 6.0 && before.last != 0);
     gate.restart();
     assert_eq!((gate.level, gate.values, gate.gap()), (before.level, before.values, 2));
-    assert_eq!((gate.run, gate.innovation, gate.course.count, gate.last, gate.held.repeated), (0, 0.0, 0, 0, 0));
+    assert_eq!((gate.last, gate.held.repeated), (before.last, before.held.repeated));
+    assert_eq!((gate.run, gate.innovation, gate.course.count), (0, 0.0, 0));
+}
+
+/// A sensor that has frozen is not alive because somebody starts anew: it takes two that differ, as ever.
+#[test]
+fn a_frozen_sensor_outlives_a_restart() {
+    let design = GuardDesign { frozen_after: 3, ..design(8.0, 0.0, 0.1) };
+    let mut gate = Gate::expecting(Some(4e-4));
+    let judge = |gate: &mut Gate, y| gate.judge(y, None, LIMIT, false, &design);
+    let first: [_; 6] = core::array::from_fn(|_| judge(&mut gate, 1.0));
+    assert_eq!(
+        first,
+        [Verdict::Taken, Verdict::Taken, Verdict::Taken, Verdict::Taken, Verdict::Frozen, Verdict::Frozen]
+    );
+    for anew in [false, true] {
+        if anew {
+            gate = Gate::expecting(None).of_sensor(&gate);
+        } else {
+            gate.restart();
+        }
+        assert_eq!([1.0, 1.0].map(|y| judge(&mut gate, y)), [Verdict::Frozen; 2]);
+    }
+    assert_eq!([2.0, 2.1].map(|y| judge(&mut gate, y)), [Verdict::Frozen, Verdict::Taken]);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The loop on the host: what it asks of its peripherals, and a flight against the exact plant.
+//! The loop on the host: what it asks of its peripherals, a flight against the exact plant, and one whose receiver fails.
 
 mod closed_loop;
 #[path = "../../src/course.rs"]
@@ -6,3 +6,6 @@ mod course;
 mod peripherals;
 #[path = "../../src/plant.rs"]
 mod plant;
+mod receiver;
+mod receiver_dead;
+mod receiver_wrong;

@@ -6,6 +6,9 @@ use embedded_hal_mock::eh1::delay::{CheckedDelay, Transaction as Wait};
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Set};
 use embedded_hal_mock::eh1::pwm::{Mock as Motor, Transaction as Duty};
 use fsb_core::control::Reference;
+use fsb_core::estimator::StateStatus;
+use fsb_core::guard::Verdict;
+use fsb_core::vehicle::Group;
 use fsb_firmware::{Allocation, ControlLoop, Event, LoopConfig, LoopConfigError, LoopError, Sample};
 use std::io::ErrorKind;
 
@@ -48,6 +51,16 @@ fn level() -> Sample {
     Vehicle::new(MASS, [0.015, 0.015, 0.03], [0.0; 6]).sample()
 }
 
+fn events(flight: &mut ControlLoop<Motor, Pin>) -> Vec<(u32, Event)> {
+    std::iter::from_fn(|| flight.events().take()).map(|stamped| (stamped.tick, stamped.event)).collect()
+}
+
+/// What is told of two good samples, one a tick.
+fn begun() -> Vec<(u32, Event)> {
+    let usable = (0..6).map(|axis| (1, Event::StateUsable(axis, StateStatus::Nominal)));
+    [(0, Event::AttitudeUsable)].into_iter().chain(usable).collect()
+}
+
 /// On the spot and at rest the motors carry the weight, each with its sixth; the marker is high once a tick, and the
 /// delay is asked for once after each.
 #[test]
@@ -80,8 +93,9 @@ fn saturation_is_bounded_and_reported_once() {
     assert!((f64::from(report.input[2]) - lift).abs() < 1e-4, "{report:?}");
     flight.reset();
     flight.tick(None, &high).unwrap();
-    let events: Vec<_> = std::iter::from_fn(|| flight.events().take()).map(|e| (e.tick, e.event)).collect();
-    assert_eq!(events, [(1, Event::Saturated(0b11_1111)), (3, Event::Reset), (3, Event::SaturationOver)]);
+    let mut told = begun();
+    told.extend([(1, Event::Saturated(0b11_1111)), (3, Event::Reset), (3, Event::SaturationOver)]);
+    assert_eq!(events(&mut flight), told);
     done(flight.release());
 }
 
@@ -115,11 +129,21 @@ fn bad_samples_are_told() {
     let mut bad = level();
     bad.position[1] = Some(f32::INFINITY);
     bad.angles[0] = Some(1e9);
+    bad.angles[1] = Some(f32::NAN);
     bad.attitude[1][1] = f32::NAN;
     flight.tick(Some(&bad), &HERE).unwrap();
-    let events: Vec<_> = std::iter::from_fn(|| flight.events().take()).map(|e| (e.tick, e.event)).collect();
-    assert_eq!(events, [(2, Event::AttitudeRejected), (2, Event::MeasurementRejected(2))]);
-    assert_eq!(flight.counters().map(|counters| counters.rejected_measurements), [1, 1]);
+    let rejected = |axis, verdict| (2, Event::MeasurementRejected(axis, verdict));
+    let mut told = begun();
+    told.extend([
+        rejected(1, Verdict::NonFinite),
+        rejected(3, Verdict::BeyondLimit),
+        rejected(4, Verdict::NonFinite),
+        (2, Event::AttitudeRejected),
+    ]);
+    assert_eq!(events(&mut flight), told);
+    let [of_translation, of_rotation] = flight.rejections();
+    assert_eq!((of_translation.non_finite, of_rotation.non_finite, of_rotation.beyond_limit), (1, 1, 1));
+    assert_eq!(flight.counters().map(|counters| counters.missed), [1, 2]);
     done(flight.release());
 }
 
@@ -127,10 +151,15 @@ fn bad_samples_are_told() {
 fn a_sample_between_two_instants_is_not_used() {
     let mut config = config();
     (config.translation.substeps, config.rotation.substeps) = (2, 2);
-    let mut flight = ControlLoop::new(&config, motors(&[hover(); 2]), marker(2)).unwrap();
+    let mut flight = ControlLoop::new(&config, motors(&[hover(); 4]), marker(4)).unwrap();
     flight.tick(Some(&level()), &HERE).unwrap();
     flight.tick(Some(&level()), &HERE).unwrap();
-    assert_eq!(flight.events().take().unwrap().event, Event::SampleEarly);
+    flight.tick(Some(&level()), &HERE).unwrap();
+    flight.tick(Some(&level()), &HERE).unwrap();
+    let told: Vec<_> = events(&mut flight).into_iter().filter(|(_, e)| matches!(e, Event::SampleEarly(_))).collect();
+    let wanted =
+        [1, 3].map(|tick| [Group::Translation, Group::Rotation].map(|group| (tick, Event::SampleEarly(group))));
+    assert_eq!(told, wanted.as_flattened());
     done(flight.release());
 }
 
@@ -148,5 +177,9 @@ fn a_wrong_configuration_is_named() {
     assert_eq!(refused(|c| c.translation.block = 0), "translation: block must be at least 1");
     assert_eq!(refused(|c| c.rotation.turn = 10), "rotation: turn is out of range");
     assert_eq!(refused(|c| c.controllers[4].kp = 0.0), "controller of axis 4: kp must be positive");
+    assert_eq!(refused(|c| c.rotation_guard.bridge = 0.0), "rotation: guard.bridge must be positive");
+    assert_eq!(refused(|c| c.missing_after = -1.0), LoopConfigError::MissingAfter.to_string());
+    assert_eq!(refused(|c| c.missing_after = 66.0), LoopConfigError::MissingAfter.to_string());
+    assert_eq!(refused(|c| c.missing_after = f64::NAN), LoopConfigError::MissingAfter.to_string());
     assert_eq!(refused(|c| c.fallback[2] = f32::NAN), LoopConfigError::Fallback.to_string());
 }

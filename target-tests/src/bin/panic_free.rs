@@ -232,7 +232,8 @@ fn whole_loop() {
     let mut flight = black_box(flight);
     let tick = target_tests::scenario::Tick { positions: black_box(None), inputs: black_box([0.0; 6]) };
     let _ = black_box(loop_tick(&mut flight, &black_box(sample(&tick)), &black_box([Reference::default(); 6])));
-    black_box((flight.parameters(), flight.parameter_status(), flight.state_status(), flight.counters()));
+    black_box((flight.parameters(), flight.parameter_status(), flight.state_status()));
+    black_box((flight.counters(), flight.rejections()));
     black_box(flight.events().take());
     flight.reset();
 }

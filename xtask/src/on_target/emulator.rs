@@ -1,7 +1,7 @@
 //! QEMU's `netduinoplus2`: an STM32F405. With `-icount shift=0` an instruction takes one nanosecond of its time, so that
 //! counts are exact and the same on every run.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread;
@@ -18,7 +18,20 @@ const LIMIT: Duration = Duration::from_secs(240);
 /// What the program printed. It must exit with status 0 in time, and the last line must be `end`: a silent or cut off run
 /// is none.
 pub fn output(program: &Path, argument: Option<&str>) -> Result<Vec<String>> {
-    let mut child = start(program, argument, &[], Stdio::inherit())?;
+    let child = start(program, argument, &[], Stdio::inherit())?;
+    printed(child)
+}
+
+/// As [`output`], the serial port being sent `bytes` as fast as the program takes them, and nothing after them.
+pub fn fed(program: &Path, bytes: Vec<u8>) -> Result<Vec<String>> {
+    let mut child = started(program, None, "stdio", &[], Stdio::piped(), Stdio::inherit())?;
+    let mut stdin = child.stdin.take().context("no standard input")?;
+    // A program that has ended takes no more.
+    thread::spawn(move || stdin.write_all(&bytes));
+    printed(child)
+}
+
+fn printed(mut child: Child) -> Result<Vec<String>> {
     let mut stdout = child.stdout.take().context("no standard output")?;
     let reader = thread::spawn(move || {
         let mut text = String::new();
@@ -76,6 +89,17 @@ fn whole(text: &str) -> Result<Vec<String>> {
 }
 
 fn start(program: &Path, argument: Option<&str>, options: &[&str], log: Stdio) -> Result<Child> {
+    started(program, argument, "null", options, Stdio::null(), log)
+}
+
+fn started(
+    program: &Path,
+    argument: Option<&str>,
+    serial: &str,
+    options: &[&str],
+    input: Stdio,
+    log: Stdio,
+) -> Result<Child> {
     if !on_path(PROGRAM) {
         bail!("{PROGRAM} is missing, and without it nothing can be said about the target: run `cargo xtask setup`");
     }
@@ -85,12 +109,12 @@ fn start(program: &Path, argument: Option<&str>, options: &[&str], log: Stdio) -
     }
     println!("$ {PROGRAM} … -kernel {} {}", program.display(), argument.unwrap_or_default());
     Command::new(PROGRAM)
-        .args(["-M", "netduinoplus2", "-nographic", "-monitor", "none", "-serial", "null"])
+        .args(["-M", "netduinoplus2", "-nographic", "-monitor", "none", "-serial", serial])
         .args(["-icount", "shift=0,sleep=off", "-semihosting-config", &semihosting])
         .args(options)
         .arg("-kernel")
         .arg(program)
-        .stdin(Stdio::null())
+        .stdin(input)
         .stdout(Stdio::piped())
         .stderr(log)
         .spawn()
