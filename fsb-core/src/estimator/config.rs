@@ -28,7 +28,8 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     /// drag, actuators that do not quite do what they are told. It counts in the variance of k̂ from the first sample on, as an
     /// acceleration that is correlated over 1/λ of the identifier: after a time t of accelerations of rms A sd(k)/k is
     /// (d/A) √(2/(λt)) to a fifth from t = 20/λ on, and up to twice that before. One that stays is a `drift`, or for
-    /// [`crate::regression::DragEstimator`]. `None`: only what the residuals show of it counts, which the first k̂ is ahead of. [`Readout::AbsoluteRatio`] takes no account of it. 1e-12..=1e6.
+    /// [`crate::regression::DragEstimator`]. `None`: only what the residuals show of it counts, which the first k̂ is ahead of.
+    /// [`Readout::AbsoluteRatio`] takes no account of it. 1e-12..=1e6.
     pub disturbance_sd: Option<f64>,
     /// How k is read out.
     pub readout: Readout,
