@@ -65,7 +65,7 @@ pub enum LogError {
     /// Samples that are not equally far apart.
     #[error(
         "{file}:{line}: column t: found a step of {step} s, expected {median} s as most steps: the time step must be \
-         uniform to 1 % (is a row missing? resample the log, or give it as --motion and --input, whose times need not be)"
+         uniform to 1 % (is a row missing? resample the log; positions with attitudes, in --motion and --input, may have any times)"
     )]
     NonUniform { file: String, line: usize, step: f64, median: f64 },
     /// A time step that f32 cannot hold.
