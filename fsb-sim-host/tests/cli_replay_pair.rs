@@ -235,7 +235,7 @@ fn bad_input_is_named_and_nothing_is_written() {
         (&too_large, &input, &[], "column t: found `1e39`, expected a number within f32, up to 3.4e38"),
         (&steering, &input, &[], "motion.csv:2: column t: found `\u{fffd}[2J"),
         (&motion, &backwards, &[], &format!("input.csv:{last}: column t: found 0.1 s after")),
-        (&motion, &short, &[], "input.csv: only 2 rows with an input, expected at least 4"),
+        (&motion, &short, &[], "input.csv: rows with an input: found 2, expected at least 4"),
         (&motion, &elsewhere, &[], "no second in common"),
         (&turned, &input, &[], "motion.csv:2: column qw: found `[2.0, 0.0, 0.0, 0.0]`, expected a quaternion"),
         (&motion, "", &[], "input.csv:1: the file is empty"),

@@ -70,7 +70,10 @@ fn a_full_disk_is_no_success() {
         let full = run(std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap().into());
         let complaint = String::from_utf8_lossy(&full.stderr).into_owned();
         assert_eq!(full.status.code(), Some(1), "{arguments:?}: {complaint}");
-        assert!(complaint.contains("error: No space left on device"), "{arguments:?}: {complaint}");
+        assert!(
+            complaint.contains("error: cannot write to stdout: No space left on device"),
+            "{arguments:?}: {complaint}"
+        );
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         assert_eq!(run(writer.into()).status.code(), Some(0), "{arguments:?}");

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `blocks` | finding and replacing what stands between the marks |
 //! | `budgets` | what a tick costs on the target |
-//! | `compare` | the same but for the last digit |
+//! | `compare` | the same, or the same but for the last digit |
 //! | `examples` | the programs shown |
 //! | `faults` | bad input and faults |
 //! | `figure` | the figure shown |
@@ -83,8 +83,8 @@ fn content(block: &Block, measured: &Measured) -> Result<Option<(String, Toleran
         "table1" => Some((tables::table1(&measured.paper)?, Tolerance::LastDigit)),
         "loop" => Some((tables::closed_loop(&measured.paper)?, Tolerance::LastDigit)),
         "efficiency" => Some((tables::efficiency(&measured.efficiency)?, Tolerance::LastDigit)),
-        "exactness" => Some((tables::exactness(&measured.exactness, &|_| true)?, Tolerance::Rounding)),
-        "exactness-short" => Some((tables::exactness(&measured.exactness, &tables::in_short)?, Tolerance::Rounding)),
+        "exactness" => Some((tables::exactness(&measured.exactness, &|_| true)?, Tolerance::None)),
+        "exactness-short" => Some((tables::exactness(&measured.exactness, &tables::in_short)?, Tolerance::None)),
         "recovery" => Some((faults::recovery(&measured.faults["bad_measurements"])?, Tolerance::LastDigit)),
         "recovery-inputs" => Some((faults::recovery(&measured.faults["bad_inputs"])?, Tolerance::LastDigit)),
         "bursts" => Some((faults::bursts(&measured.faults["bursts"])?, Tolerance::LastDigit)),

@@ -26,10 +26,11 @@ pub struct EstimatorConfig<const N: usize, const P: usize> {
     pub noise_sd: Option<f64>,
     /// Standard deviation of the acceleration that neither the input nor the drift is the cause of (m/s² or rad/s²), of any axis: wind,
     /// drag, actuators that do not quite do what they are told. It counts in the variance of k̂ from the first sample on, as an
-    /// acceleration that is correlated over 1/λ of the identifier: after a time t of accelerations of rms A sd(k)/k is about
-    /// (d/A) √(2/(λt)). Position noise that wanders by w within 1/λ (GNSS, SLAM, what another filter puts out) is such an
-    /// acceleration, of λ² w. One that stays is a `drift`, or for [`crate::regression::DragEstimator`]. `None`: only what the residuals show
-    /// of it counts, which the first k̂ is ahead of. Least squares only. 1e-12..=1e6.
+    /// acceleration that is correlated over 1/λ of the identifier: after a time t of accelerations of rms A sd(k)/k is
+    /// (d/A) √(2/(λt)) to a fifth from t = 20/λ on, and up to twice that before. Position noise that wanders by w within 1/λ
+    /// (GNSS, SLAM, what another filter puts out) is such an acceleration, of λ² w. One that stays is a `drift`, or for
+    /// [`crate::regression::DragEstimator`]. `None`: only what the residuals show of it counts, which the first k̂ is ahead of.
+    /// [`Readout::AbsoluteRatio`] takes no account of it. 1e-12..=1e6.
     pub disturbance_sd: Option<f64>,
     /// How k is read out.
     pub readout: Readout,

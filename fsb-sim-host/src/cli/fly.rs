@@ -9,7 +9,7 @@ use fsb_sim_host::fly::many::{Flights, Spread};
 use fsb_sim_host::fly::record::{Errors, Event, Flight, ParameterEnd, StateErrors, Tracking};
 use fsb_sim_host::fly::{self, Scenario, fly_many, page};
 use fsb_sim_host::progress::Progress;
-use fsb_sim_host::report::write::write_files;
+use fsb_sim_host::report::write::{check_directory, write_files};
 use serde::Serialize;
 
 use super::shell::quoted;
@@ -160,6 +160,8 @@ pub fn run(args: &Args) -> Result<ExitCode, Failure> {
         return list(args.json);
     }
     let scenario = fly::load(&args.scenario, &args.set).map_err(|error| Failure::Usage(error.to_string()))?;
+    let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("out").join(page::folder(&scenario)));
+    check_directory(&folder)?;
     let progress = Progress::new(&scenario.name, args.runs, false);
     let flights = fly_many(&scenario, args.seed, args.runs, || progress.step())
         .map_err(|error| Failure::Usage(format!("{}: {error}", args.scenario)))?;
@@ -167,7 +169,6 @@ pub fn run(args: &Args) -> Result<ExitCode, Failure> {
 
     // Nothing is written before all is there.
     let files = page::files(&scenario, args.seed, &flights, &args.command())?;
-    let folder = args.out.clone().unwrap_or_else(|| PathBuf::from("out").join(page::folder(&scenario)));
     write_files(&folder, &files)?;
     let report = folder.join("report.html");
     if args.json {

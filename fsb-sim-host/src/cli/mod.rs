@@ -121,7 +121,7 @@ pub fn run() -> ExitCode {
 fn say(answer: &clap::Error) -> Result<ExitCode, Failure> {
     let said = answer.print().and_then(|()| io::stdout().flush());
     match said {
-        Err(error) if !answer.use_stderr() && error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
+        Err(error) if !answer.use_stderr() && error.kind() != io::ErrorKind::BrokenPipe => Err(unprinted(&error)),
         _ => Ok(ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(2))),
     }
 }
@@ -161,9 +161,13 @@ fn print_json(value: &impl Serialize) -> Result<(), Failure> {
 fn print_text(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(unprinted(&error)),
         _ => Ok(()),
     }
+}
+
+fn unprinted(error: &io::Error) -> Failure {
+    Failure::Other(anyhow::anyhow!("cannot write to stdout: {error}"))
 }
 
 /// A positive finite number, for clap.

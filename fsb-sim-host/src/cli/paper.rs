@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use fsb_sim_host::progress::Progress;
-use fsb_sim_host::report::write::write_files;
+use fsb_sim_host::report::write::{check_directory, write_files};
 use fsb_sim_host::section_v::figures::Flights;
 use fsb_sim_host::section_v::table1::{Row, table1};
 use fsb_sim_host::section_v::{LoopStatistics, Scenario, Start, monte_carlo, page};
@@ -156,6 +156,7 @@ impl From<&LoopStatistics> for JsonLoop {
 pub fn run(args: &Args) -> Result<ExitCode, Failure> {
     let scenario = args.scenario();
     scenario.check().map_err(|error| Failure::Usage(error.to_string()))?;
+    check_directory(&args.out)?;
     let progress = Progress::new("Monte Carlo", args.runs, false);
     let result = monte_carlo(&scenario, args.runs, || progress.step())?;
     progress.finish();

@@ -10,15 +10,19 @@ use fsb_sim_host::progress::Progress;
 use fsb_sim_host::replay::{
     Recording, ReplayOptions, ReplayResult, Watch, overview, page, passes, run_watched, summary::Summary,
 };
-use fsb_sim_host::report::{html::HowMade, write::write_files};
+use fsb_sim_host::report::{
+    html::HowMade,
+    write::{check_directory, write_files},
+};
 use std::path::PathBuf;
 
 /// Run a recorded flight through the f32 core: mass, moments of inertia, positions and velocities.
 ///
 /// LOG.csv is an axis log: a header; t [s], uniform; for each axis present among x, y, z, roll, pitch, yaw a position
 /// column of that name [m or rad, world frame, z up] and an input column fx, fy, fz [N, world frame] or taux, tauy, tauz
-/// [N m]: the mean input from this row to the next. An empty position is a missed measurement. Columns vx_ref,
-/// vy_ref, ... vyaw_ref [m/s or rad/s] are compared with; other columns are ignored.
+/// [N m]: the mean input from this row to the next. A position that is empty or nan is a missed measurement, an input has to
+/// be there in every row. Columns vx_ref, vy_ref, ... vyaw_ref [m/s or rad/s] are compared with; other columns are ignored.
+/// Columns are separated by commas, semicolons or tabs.
 ///
 /// LOG.ulg is a PX4 log: position, attitude and thrust set-point are found by themselves, and only what flies is used. Its
 /// thrust is a share of the full one, so k is reported as the hover thrust g/k, unless --full-thrust tells the newtons.
@@ -118,6 +122,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if !matches!(source.content, Content::Axis(_)) {
         options.identify.get_or_insert(Identify::NOTHING_ELSE);
     }
+    args.out.as_deref().map_or(Ok(()), check_directory)?;
     let recording = source.recording(&options)?;
     let log = &recording.log;
     let slowest = LARGEST_STEP / log.period;

@@ -20,7 +20,8 @@ pub struct Files {
     /// vz_ref [m/s], if there, are compared with.
     #[arg(long, value_name = "MOTION.csv", requires = "input")]
     motion: Option<PathBuf>,
-    /// Inputs (CSV) on the same clock: t [s] and thrust_N [N] along body z, each held until the next.
+    /// Inputs (CSV) on the same clock: t [s] and thrust_N [N] along body z, each held until the next; with an
+    /// empty cell the last one stays.
     #[arg(long, value_name = "INPUT.csv", requires = "motion")]
     input: Option<PathBuf>,
     /// Take the names of the columns of both files from a TOML file: x = "pos_x", thrust = "T", and t in the tables

@@ -66,7 +66,8 @@ fn explain(cause: ConfigError, options: &ReplayOptions, period: f64) -> String {
         ConfigError::NonFinite(_) => "not a finite number".to_owned(),
         ConfigError::NonPositive(_) => "must be positive".to_owned(),
         ConfigError::TooFastForPeriod(_) => {
-            format!("too large for the time step of {period} s: the product of the two must not exceed 1")
+            let unit = if period >= 1.0 { "; is t in seconds?" } else { "" };
+            format!("too large for the time step of {period} s: the product of the two must not exceed 1{unit}")
         }
         ConfigError::TooSlowForPeriod(_) => {
             format!("too small for the time step of {period} s: the product of the two must be at least 1e-6")
@@ -76,7 +77,7 @@ fn explain(cause: ConfigError, options: &ReplayOptions, period: f64) -> String {
         }
         ConfigError::OutOfRange("drift") => "must not exceed 1e6 in magnitude".to_owned(),
         ConfigError::OutOfRange("period" | "substeps" | "block") => {
-            format!("a time step of {period} s is outside the range 1e-6 s to 1000 s")
+            format!("a time step of {period} s is outside the range 1e-6 s to 1000 s; is t in seconds?")
         }
         other => other.to_string(),
     }

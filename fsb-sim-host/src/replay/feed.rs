@@ -70,7 +70,7 @@ pub(super) struct Trace {
     pub parameters: Vec<ParameterTrace>,
     /// Measurements beyond the limit of the core, taken as missed.
     pub rejected_measurements: u32,
-    /// Inputs beyond the limit of the core, replaced by the last good one.
+    /// Inputs beyond the limit of the core, replaced by the axis's mean input of late.
     pub rejected_inputs: u32,
 }
 

@@ -1,16 +1,17 @@
 //! The axis log: a CSV file of positions and inputs, read and checked.
 //!
-//! A header, then one row per sample, separated by commas:
+//! A header, then one row per sample, separated by commas, semicolons or tabs:
 //!
 //! | column | content |
 //! |---|---|
 //! | `t` | time \[s\], uniform |
-//! | `x` `y` `z` `roll` `pitch` `yaw` | measured position \[m\] or angle \[rad\]; empty: a missed measurement |
+//! | `x` `y` `z` `roll` `pitch` `yaw` | measured position \[m\] or angle \[rad\]; empty or `nan`: a missed measurement |
 //! | `fx` `fy` `fz` `taux` `tauy` `tauz` | its mean input over \[tₙ, tₙ₊₁): force \[N\] (world frame, z up) or torque \[N m\] |
-//! | `vx_ref` … `vyaw_ref` | optional velocity to compare with \[m/s, rad/s\]; empty: none at this sample |
+//! | `vx_ref` … `vyaw_ref` | optional velocity to compare with \[m/s, rad/s\]; empty or `nan`: none at this sample |
 //!
 //! An axis is read when both its position and its input are there. Columns of other names are not looked at. A byte order
-//! mark, CRLF line ends and spaces around names and numbers are accepted. Every number must be finite and within f32.
+//! mark, CRLF line ends and spaces around names and numbers are accepted. Every number must be finite and within f32: a
+//! measurement that is not a number is one that was missed, an input that is none is a fault of who recorded it.
 //!
 //! # Uniform time
 //! The period is the mean step, (t_last − t_first)/(N − 1): the rounding of written times does not accumulate in it, as it
@@ -31,7 +32,7 @@ use std::io::{self, Read};
 use std::ops::Range;
 use std::path::Path;
 
-use csv::{ByteRecord, ReaderBuilder, Trim};
+use csv::ByteRecord;
 
 pub use axis::Axis;
 pub use error::LogError;
@@ -40,6 +41,7 @@ use clock::Clock;
 use error::Place;
 use header::{AxisHeader, Header};
 
+use super::layout;
 use super::lines::Lines;
 use crate::twin::Moments;
 
@@ -135,7 +137,7 @@ impl AxisLog {
         if let Err(source) = reader.read_to_end(&mut bytes) {
             return Err(LogError::NotReadable { file: name.into(), source });
         }
-        parse(name, bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))
+        parse(name, &bytes)
     }
 
     /// Columns of one length.
@@ -158,7 +160,7 @@ impl AxisLog {
 }
 
 fn parse(file: &str, bytes: &[u8]) -> Result<AxisLog, LogError> {
-    let mut rows = Rows::new(file, bytes);
+    let mut rows = Rows::new(file, bytes)?;
     let Some((place, fields)) = rows.next()? else { return Err(LogError::Empty { file: file.into() }) };
     let header = Header::read(&place, &fields)?;
     let mut clock = Clock::new(file);
@@ -194,9 +196,11 @@ struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    fn new(file: &'a str, bytes: &'a [u8]) -> Self {
-        let reader = ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(bytes);
-        Self { file, reader, lines: Lines::of_text(bytes), line: 1 }
+    fn new(file: &'a str, bytes: &'a [u8]) -> Result<Self, LogError> {
+        match layout::rows(bytes) {
+            Ok((reader, lines)) => Ok(Self { file, reader, lines, line: 1 }),
+            Err(source) => Err(LogError::NotReadable { file: file.into(), source }),
+        }
     }
 
     fn next(&mut self) -> Result<Option<(Place<'a>, ByteRecord)>, LogError> {

@@ -12,6 +12,7 @@
 //! | file | what |
 //! |---|---|
 //! | `log` | the axis log and its reader |
+//! | `layout` | in which characters a file is written, and what stands between its fields |
 //! | `lines` | the line of a file that a row begins on |
 //! | `flight` | positions, attitudes and inputs at time stamps of their own, brought to the core |
 //! | `pair` | two CSV files as a flight |
@@ -42,6 +43,7 @@ pub mod flight;
 pub mod identified;
 mod informed;
 pub mod lag;
+mod layout;
 mod lines;
 pub mod log;
 pub mod options;

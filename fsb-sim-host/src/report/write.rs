@@ -7,6 +7,20 @@ use std::{
 };
 use tempfile::{Builder, NamedTempFile};
 
+/// Asks whether [`write_files`] can put files into `directory`, before the work of making them. Nothing is left behind.
+///
+/// # Errors
+/// [`WriteError`]: there is a file of that name or above it, or no file can be made there.
+pub fn check_directory(directory: &Path) -> Result<(), WriteError> {
+    let existing = directory.ancestors().find(|path| path.as_os_str().is_empty() || path.exists());
+    let existing = existing.filter(|path| !path.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let tried = match existing.is_dir() {
+        true => tempfile::tempfile_in(existing).map(drop),
+        false => Err(io::ErrorKind::NotADirectory.into()),
+    };
+    tried.map_err(|cause| WriteError { path: directory.to_owned(), cause })
+}
+
 /// A file could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {cause}", path.display())]
@@ -23,7 +37,8 @@ pub struct WriteError {
 /// Every file is first written in full and flushed to disk under a temporary name in the same directory; only when all
 /// of them are complete are they renamed. A reader therefore never sees half a file, and an error while writing leaves
 /// the directory as it was: the temporary files are removed, and so are directories that were made for them. Should a
-/// rename itself fail, files renamed before it stay, each whole.
+/// rename itself fail, files renamed before it stay, each whole. A process that is killed meanwhile leaves a temporary file,
+/// `.fsb-` and six characters.
 ///
 /// # Errors
 /// [`WriteError`] with the path concerned: a name that is not a plain file name, a directory that cannot be made, a
@@ -155,6 +170,20 @@ mod tests {
         let error = write_files(&root.path().join("new/out"), &[(long.as_str(), "x")]).unwrap_err();
         assert_eq!(error.path, root.path().join("new/out").join(&long));
         assert!(names(root.path()).is_empty());
+    }
+
+    #[test]
+    fn where_files_can_be_put_is_asked_without_a_trace() {
+        let root = tempfile::tempdir().unwrap();
+        check_directory(root.path()).unwrap();
+        check_directory(&root.path().join("new/out")).unwrap();
+        check_directory(Path::new("new-out")).unwrap();
+        assert!(names(root.path()).is_empty() && !Path::new("new-out").exists());
+        fs::write(root.path().join("file"), "kept").unwrap();
+        for blocked in ["file", "file/out"] {
+            let error = check_directory(&root.path().join(blocked)).unwrap_err();
+            assert_eq!((error.path, error.cause.kind()), (root.path().join(blocked), io::ErrorKind::NotADirectory));
+        }
     }
 
     #[test]

@@ -2,6 +2,17 @@
 //!
 //! Seeds are fixed and no result depends on the number of threads; but the sine of one machine is not that of another to the
 //! last bit, and a number at the edge may be rounded the other way.
+//!
+//! | class | apart by |
+//! |---|---|
+//! | what the f32 core makes of forces and positions that are f32 themselves | nothing: a last bit of an f64 sine is gone there |
+//! | the same in flights simulated in f64, with noise | one in the last digit |
+//! | counts, instructions, bytes, programs | nothing |
+//! | figures | two pixels |
+//! | times | not shown |
+//!
+//! With every third result of `sin`, `cos`, `exp`, `log`, `pow`, `atan2`, `tan` and `hypot` moved to a neighbouring f64, no number of the
+//! documents changed by a digit.
 
 /// How far two numbers may be apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,8 +21,6 @@ pub enum Tolerance {
     None,
     /// By one in the last digit.
     LastDigit,
-    /// By a third: the largest of many rounding errors hangs on single bits.
-    Rounding,
     /// By sixteen, which is two pixels of a figure.
     Drawing,
 }
@@ -50,7 +59,6 @@ fn same_line(a: &str, b: &str, tolerance: Tolerance) -> bool {
                     Tolerance::Drawing => 16.0,
                     // Whole numbers are counts.
                     _ if *ua >= 1.0 => 0.0,
-                    Tolerance::Rounding => a.max(*b) / 3.0,
                     _ => 1.001 * ua.max(*ub),
                 };
                 (a - b).abs() <= allowed
@@ -117,13 +125,6 @@ mod tests {
         assert!(equal("2.1e-7 and 10.00", "2.2e-7 and 9.99", LastDigit));
         assert!(!equal("2.1e-7", "2.1e-6", LastDigit));
         assert!(!equal("100 runs", "101 runs", LastDigit));
-    }
-
-    #[test]
-    fn rounding_errors_may_differ_by_a_third() {
-        assert!(equal("2.1e-7", "2.9e-7", Tolerance::Rounding));
-        assert!(!equal("2.1e-7", "3.9e-7", Tolerance::Rounding));
-        assert!(!equal("50", "60", Tolerance::Rounding));
     }
 
     #[test]

@@ -26,13 +26,13 @@ pub enum FlightError {
     #[error("{file}:{line}: found {found} fields, expected {expected} as in the header")]
     FieldCount { file: String, line: usize, found: usize, expected: usize },
     /// A cell that is not what it must be.
-    #[error("{file}:{line}: column {column}: found `{found}`, expected {expected}")]
+    #[error("{file}:{line}: column {column}: found {}, expected {expected}", cell(.found))]
     Cell { file: String, line: usize, column: String, found: String, expected: &'static str },
     /// Time that goes back.
     #[error("{file}:{line}: column {column}: found {found} s after {previous} s, expected a rising time")]
     NotIncreasing { file: String, line: usize, column: String, found: f64, previous: f64 },
     /// Too few rows.
-    #[error("{file}: only {found} {what}, expected at least {expected}")]
+    #[error("{file}: {what}: found {found}, expected at least {expected}")]
     TooShort { file: String, what: &'static str, found: usize, expected: usize },
     /// Positions so far apart that most of the time nothing was measured.
     #[error("{file}: only {found} positions from {start} s to {end} s; is a time stamp wrong?")]
@@ -66,6 +66,10 @@ impl FlightError {
     pub const fn is_no_flight(&self) -> bool {
         matches!(self, Self::NoFlight { .. })
     }
+}
+
+fn cell(found: &str) -> String {
+    if found.is_empty() { "an empty cell".to_owned() } else { format!("`{found}`") }
 }
 
 fn how_to_name(role: &str) -> String {

@@ -21,7 +21,8 @@ pub enum LogError {
     NoHeader { file: String, line: usize, found: String },
     /// No time column.
     #[error(
-        "{file}:{line}: column t is missing; found `{found}`, expected names separated by commas, t [s] among them"
+        "{file}:{line}: column t is missing; found `{found}`, expected names separated by commas, \
+         semicolons or tabs, t [s] among them"
     )]
     NoTime { file: String, line: usize, found: String },
     /// A name that stands twice in the header.
@@ -44,7 +45,7 @@ pub enum LogError {
         column: Option<String>,
     },
     /// Text where a number belongs.
-    #[error("{file}:{line}: column {column}: found `{found}`, expected a number")]
+    #[error("{file}:{line}: column {column}: found `{found}`, expected a number{}{}", with_point(.found), or_empty(column))]
     NotANumber { file: String, line: usize, column: &'static str, found: String },
     /// An infinity, a NaN, or a number too large even for f64.
     #[error("{file}:{line}: column {column}: found `{found}`, expected a finite number{}", or_empty(column))]
@@ -56,7 +57,7 @@ pub enum LogError {
     #[error("{file}:{line}: column {column}: found an empty cell, expected a number")]
     EmptyCell { file: String, line: usize, column: &'static str },
     /// Too few rows.
-    #[error("{file}:{line}: the log ends after {found} samples, expected at least {expected}")]
+    #[error("{file}:{line}: the log ends after {found} sample{}, expected at least {expected}", if *.found == 1 { "" } else { "s" })]
     TooShort { file: String, line: usize, found: usize, expected: usize },
     /// Time that stands still or goes back.
     #[error("{file}:{line}: column t: found {found} s after {previous} s, expected an increasing time")]
@@ -64,7 +65,7 @@ pub enum LogError {
     /// Samples that are not equally far apart.
     #[error(
         "{file}:{line}: column t: found a step of {step} s, expected {median} s as most steps: the time step must be \
-         uniform to 1 % (is a row missing? resample the log)"
+         uniform to 1 % (is a row missing? resample the log; positions with attitudes, in --motion and --input, may have any times)"
     )]
     NonUniform { file: String, line: usize, step: f64, median: f64 },
     /// A time step that f32 cannot hold.
@@ -76,10 +77,15 @@ fn first_missing(column: &Option<String>) -> String {
     column.as_ref().map(|name| format!("; the first one missing is {name}")).unwrap_or_default()
 }
 
-/// Positions and references may be missing, and many tools write that as `nan`.
+/// Where numbers are written with a decimal comma.
+fn with_point(found: &str) -> &'static str {
+    if found.contains(',') { " with a decimal point" } else { "" }
+}
+
+/// Positions and references may be missing.
 fn or_empty(column: &str) -> &'static str {
     let required = column == "t" || super::Axis::ALL.iter().any(|axis| axis.input_name() == column);
-    if required { "" } else { " or an empty cell" }
+    if required { "" } else { ", nan or an empty cell" }
 }
 
 /// A row of a file.
@@ -93,10 +99,13 @@ impl Place<'_> {
     /// A number that must be there.
     pub fn number(&self, column: &'static str, field: &[u8]) -> Result<f64, LogError> {
         let (file, line) = (self.file.into(), self.line);
-        self.optional(column, field)?.ok_or(LogError::EmptyCell { file, line, column })
+        if field.is_empty() {
+            return Err(LogError::EmptyCell { file, line, column });
+        }
+        self.optional(column, field)?.ok_or_else(|| LogError::NotFinite { file, line, column, found: text(field) })
     }
 
-    /// A number, or `None` for an empty cell.
+    /// A number, or `None` for an empty cell or a NaN: what was not measured is written as either.
     pub fn optional(&self, column: &'static str, field: &[u8]) -> Result<Option<f64>, LogError> {
         if field.is_empty() {
             return Ok(None);
@@ -105,7 +114,8 @@ impl Place<'_> {
         let parsed = std::str::from_utf8(field).ok().and_then(|field| field.parse::<f64>().ok());
         match parsed {
             None => Err(LogError::NotANumber { file, line, column, found: text(field) }),
-            Some(value) if !value.is_finite() => Err(LogError::NotFinite { file, line, column, found: text(field) }),
+            Some(value) if value.is_nan() => Ok(None),
+            Some(value) if value.is_infinite() => Err(LogError::NotFinite { file, line, column, found: text(field) }),
             Some(value) if value.abs() > f64::from(f32::MAX) => {
                 Err(LogError::OutOfRange { file, line, column, found: text(field) })
             }

@@ -84,6 +84,11 @@ fn how_the_text_is_laid_out_does_not_matter() {
         format!("\u{feff}{}", plain.replace('\n', "\r\n")),
         plain.replace(',', " ,\t ").replace('\n', "  \n"),
         plain.replace("x,fx", "\"x\",\"fx\""),
+        plain.replace(',', ";"),
+        plain.replace(',', "\t"),
+        format!("\u{feff}{}", plain.replace(',', " ; ").replace('\n', "\r\n")),
+        plain.replace(",,", ",nan,"),
+        plain.replace(",,", ", -NaN ,"),
     ] {
         assert_eq!(read(&same).unwrap(), expected, "{same:?}");
     }
@@ -94,6 +99,13 @@ fn a_half_axis_beside_a_whole_one_is_told() {
     let log = read("t,x,fx,y,tauz\n0,1,2,a,b\n1,1,2,a,b\n2,1,2,a,b\n3,1,2,a,b\n").unwrap();
     assert_eq!(log.axes.len(), 1);
     assert_eq!(log.unpaired, ["y", "tauz"]);
+}
+
+#[test]
+fn utf_16_is_named() {
+    let bytes: Vec<u8> = format!("\u{feff}{}", with_times(0..5)).encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let message = AxisLog::from_reader("a.csv", &bytes[..]).unwrap_err().to_string();
+    assert_eq!(message, "a.csv: cannot be read: it is in UTF-16, expected UTF-8");
 }
 
 #[test]

@@ -11,8 +11,9 @@ const FEWEST: usize = 4;
 
 /// Reads the two files: what both cover.
 ///
-/// A row of the motion file without a position or attitude (an empty cell, or `nan`) is a missed measurement, a row of the
-/// input file without an input leaves the one before it held. Rows at the same time as the row before are left out.
+/// A row of the motion file without a position or attitude (an empty cell, or `nan`) is a missed measurement. A row of the
+/// input file with an empty cell for an input leaves the one before it held; one with a NaN is refused, as what the motors did
+/// then is not known. Rows at the same time as the row before are left out.
 ///
 /// # Errors
 /// [`FlightError`], naming the file, the line and the column where there are any.
@@ -81,11 +82,11 @@ fn read_input(table: &Table, columns: &Columns) -> Result<HeldInput, FlightError
     let force: Vec<Vec<Option<f64>>> = if body.iter().any(|role| columns.header(role).is_some()) {
         let mut force = Vec::new();
         for role in body {
-            force.push(table.column(role, columns.header(role).unwrap_or(role))?);
+            force.push(table.set_points(role, columns.header(role).unwrap_or(role))?);
         }
         force
     } else {
-        let thrust = table.column("thrust", columns.header("thrust").unwrap_or("thrust_N"))?;
+        let thrust = table.set_points("thrust", columns.header("thrust").unwrap_or("thrust_N"))?;
         let none = vec![Some(0.0); thrust.len()];
         vec![none.clone(), none, thrust]
     };

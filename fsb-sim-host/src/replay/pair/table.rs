@@ -1,8 +1,8 @@
 //! A CSV file as columns of numbers, each cell's place known.
 
 use crate::replay::flight::FlightError;
-use crate::replay::lines::Lines;
-use csv::{ByteRecord, ReaderBuilder, Trim};
+use crate::replay::layout;
+use csv::ByteRecord;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -16,12 +16,32 @@ pub struct Table {
     rows: Vec<(usize, ByteRecord)>,
 }
 
-/// What a cell may hold, for messages.
-const MAY_BE_EMPTY: &str = "a finite number or an empty cell";
-const MUST_BE_THERE: &str = "a finite number";
+/// What the cells of a column hold.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Content {
+    /// Measurements: an empty cell or a NaN is one that was missed.
+    Measured,
+    /// Set-points: with an empty cell the last one stays, a NaN is a fault of who recorded it.
+    Set,
+    /// Numbers that must be there.
+    Full,
+}
+
+impl Content {
+    /// What a cell may be, for messages.
+    const fn expected(self) -> &'static str {
+        match self {
+            Self::Measured => "a finite number, nan or an empty cell",
+            Self::Set => "a finite number or an empty cell",
+            Self::Full => "a finite number",
+        }
+    }
+}
+
+const WITH_POINT: &str = "a number with a decimal point";
 const WITHIN_F32: &str = "a number within f32, up to 3.4e38";
 
-/// The numbers of a column; `None` where the cell is empty.
+/// The numbers of a column; `None` where there is none.
 pub type Numbers = Vec<Option<f64>>;
 
 impl Table {
@@ -31,9 +51,9 @@ impl Table {
             ErrorKind::NotFound => FlightError::NotFound { file: file.clone(), expected: "a CSV file with a header" },
             _ => FlightError::NotReadable { file: file.clone(), source },
         })?;
-        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-        let mut reader = ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(text);
-        let (mut rows, mut lines) = (Vec::new(), Lines::of_text(text));
+        let (mut reader, mut lines) =
+            layout::rows(&bytes).map_err(|source| FlightError::NotReadable { file: file.clone(), source })?;
+        let mut rows = Vec::new();
         for record in reader.byte_records() {
             let record =
                 record.map_err(|error| FlightError::NotReadable { file: file.clone(), source: error.into() })?;
@@ -61,25 +81,33 @@ impl Table {
         self.rows.get(row).map_or(self.line, |(line, _)| *line)
     }
 
-    /// The column of this header, if the file has it.
+    /// The measurements of this header, if the file has it: `None` where the cell is empty or a NaN.
     pub fn optional(&self, header: &str) -> Result<Option<Numbers>, FlightError> {
-        let Some(index) = self.place(header)? else { return Ok(None) };
-        let cells = self.rows.iter().map(|(line, row)| self.cell(*line, header, row.get(index), MAY_BE_EMPTY));
-        cells.collect::<Result<Numbers, _>>().map(Some)
+        self.numbers(header, Content::Measured)
     }
 
-    /// The column of this header; `role` is what it is for.
+    /// The measurements of this header; `role` is what it is for.
     pub fn column(&self, role: &'static str, header: &str) -> Result<Numbers, FlightError> {
         self.optional(header)?.ok_or_else(|| self.without(role, header))
+    }
+
+    /// The set-points of this header: `None` where the cell is empty; a NaN is refused.
+    pub fn set_points(&self, role: &'static str, header: &str) -> Result<Numbers, FlightError> {
+        self.numbers(header, Content::Set)?.ok_or_else(|| self.without(role, header))
+    }
+
+    fn numbers(&self, header: &str, content: Content) -> Result<Option<Numbers>, FlightError> {
+        let Some(index) = self.place(header)? else { return Ok(None) };
+        let cells = self.rows.iter().map(|(line, row)| self.cell(*line, header, row.get(index), content));
+        cells.collect::<Result<Numbers, _>>().map(Some)
     }
 
     /// The column of this header, a number in every cell.
     pub fn full(&self, role: &'static str, header: &str) -> Result<Vec<f64>, FlightError> {
         let index = self.place(header)?.ok_or_else(|| self.without(role, header))?;
         let number = |(row, (line, cells)): (usize, &(usize, ByteRecord))| {
-            let cell = cells.get(index);
-            let found = self.cell(*line, header, cell, MUST_BE_THERE)?;
-            found.ok_or_else(|| self.refuse(row, header, &shown(cell.unwrap_or_default()), MUST_BE_THERE))
+            let found = self.cell(*line, header, cells.get(index), Content::Full)?;
+            found.ok_or_else(|| self.refuse(row, header, "", Content::Full.expected()))
         };
         self.rows.iter().enumerate().map(number).collect()
     }
@@ -130,7 +158,7 @@ impl Table {
         line: usize,
         header: &str,
         field: Option<&[u8]>,
-        expected: &'static str,
+        content: Content,
     ) -> Result<Option<f64>, FlightError> {
         let field = field.unwrap_or_default();
         if field.is_empty() {
@@ -139,13 +167,17 @@ impl Table {
         let number = std::str::from_utf8(field).ok().and_then(|field| field.parse::<f64>().ok());
         match number {
             Some(number) if number.abs() <= f64::from(f32::MAX) => Ok(Some(number)),
-            Some(number) if number.is_nan() => Ok(None),
+            Some(number) if number.is_nan() && content == Content::Measured => Ok(None),
             _ => Err(FlightError::Cell {
                 file: self.file.clone(),
                 line,
                 column: header.to_owned(),
                 found: shown(field),
-                expected: if number.is_some_and(f64::is_finite) { WITHIN_F32 } else { expected },
+                expected: match number {
+                    Some(number) if number.is_finite() => WITHIN_F32,
+                    None if field.contains(&b',') => WITH_POINT,
+                    _ => content.expected(),
+                },
             }),
         }
     }
