@@ -52,8 +52,6 @@ pub struct GuardDesign {
     pub(super) decay: f32,
     /// 1/T
     pub(super) per_period: f32,
-    /// 2/(λT)
-    pub(super) rest: f32,
     pub(super) jump_after: u16,
     /// In measurement periods.
     pub(super) bridge: u16,
@@ -94,7 +92,6 @@ impl GuardDesign {
             lambda_t: (lambda * period) as f32,
             decay: (3.0 * lambda * period) as f32,
             per_period: (1.0 / period) as f32,
-            rest: (2.0 / (lambda * period)) as f32,
             jump_after: count("guard.jump_after", config.jump_after, 2)?,
             bridge: bridge as u16,
             frozen_after: count("guard.frozen_after", config.frozen_after, 0)?,

@@ -97,7 +97,7 @@ impl Gate {
         let stretch = 1.0 + design.lambda_t * gap;
         // The velocity may be off, and what it does was not seen. A large innovation is on its way back to zero.
         let unseen = design.drift * f32::from(self.blind) + design.fall * gap * gap;
-        let held = self.held.allowance(design.fall, design.rest);
+        let held = self.held.allowance(design.fall);
         let known = design.step + held + unseen + design.decay * self.innovation.abs();
         let trusted = self.values >= Self::ENOUGH;
         // What was expected is no outlier: it may be the last one that was, and passed.
@@ -118,7 +118,7 @@ impl Gate {
         }
         if self.run >= design.jump_after {
             // The next innovation is about that of before the jump.
-            self.held.learn(step);
+            self.held.learn_jump(step, design.step);
             return Verdict::Jumped(step);
         }
         Verdict::Improbable
@@ -168,7 +168,7 @@ impl Gate {
     fn is_frozen(&mut self, y: f32, design: &GuardDesign) -> bool {
         let looked_for = design.frozen_after > 0;
         if y.to_bits() == self.last {
-            self.held.repeated = self.held.repeated.saturating_add(1);
+            self.held.once_more();
         } else if looked_for && self.held.repeated > design.frozen_after {
             // One that differs may be the frozen one with a fault of its own: it takes two to be alive.
             self.held.repeated = design.frozen_after;

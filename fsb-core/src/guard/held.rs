@@ -9,57 +9,77 @@ pub(super) struct Held {
     /// How often the last measurement has come again.
     pub repeated: u16,
     /// How often the one before it came again.
-    pub before: u16,
-    /// About the largest of the last steps of the innovation from a value that had come again to the next one.
-    pub step: f32,
+    before: u16,
+    /// The step of the innovation to the last measurement, as long as that has not come again.
+    pending: f32,
+    /// About the largest of the last steps from a value that had come again to another one that did: a spike does not.
+    step: f32,
 }
 
 impl Held {
     /// A step smaller than the largest one counts for an eighth; where nothing comes again that is forgotten sooner or later.
     const FORGETS: f32 = 0.125;
 
-    /// Another value has come.
+    /// The same value once more.
+    #[inline(always)]
+    pub fn once_more(&mut self) {
+        self.repeated = self.repeated.saturating_add(1);
+        if self.pending > 0.0 {
+            self.add(self.pending);
+        }
+    }
+
+    /// Another value.
     #[inline(always)]
     pub fn next(&mut self) {
-        (self.before, self.repeated) = (self.repeated, 0);
+        (self.before, self.repeated, self.pending) = (self.repeated, 0, 0.0);
     }
 
     /// The measurement was used. `step` is that of the innovation.
     #[inline(always)]
     pub fn learn(&mut self, step: f32) {
-        if self.repeated == 0 && (self.before > 0 || self.step > 0.0) {
-            self.learn_step(step.abs());
+        if self.repeated > 0 {
+            return;
+        }
+        if self.before > 0 {
+            self.pending = step.abs();
+        } else if self.step > 0.0 {
+            self.step -= Self::FORGETS * self.step;
+        }
+    }
+
+    /// What was taken for a jump of a value that has come again may have been a step; `usual` is what passes anyway.
+    pub fn learn_jump(&mut self, step: f32, usual: f32) {
+        let most = 4.0 * if self.step > usual { self.step } else { usual };
+        let step = step.abs();
+        if self.repeated > 0 {
+            self.add(if step < most { step } else { most });
         }
     }
 
     #[inline(never)]
-    fn learn_step(&mut self, step: f32) {
-        if step > self.step {
-            self.step = if self.before > 0 { step } else { self.step };
-        } else {
-            self.step -= Self::FORGETS * (self.step - step);
-        }
+    fn add(&mut self, step: f32) {
+        self.pending = 0.0;
+        self.step = if step > self.step { step } else { self.step - Self::FORGETS * (self.step - step) };
     }
 
-    /// What the innovation may step by where values come again: twice what it did of late, and what an acceleration does in the time
-    /// that the value stood still for, `fall` being that in one sample; no longer than `most` samples, in which the observer has come to rest.
+    /// What the innovation may step by: twice what it did of late, and once the value has stood still for a while, what an acceleration does
+    /// in that time, as much again at most. `fall` is what that is in one sample.
     #[inline(always)]
-    pub fn allowance(&self, fall: f32, most: f32) -> f32 {
-        if self.before == 0 || self.repeated > 0 {
-            return 2.0 * self.step;
-        }
-        let stood = f32::from(self.before) + 1.0;
-        let stood = if stood < most { stood } else { most };
-        2.0 * self.step + fall * stood * stood
+    pub fn allowance(&self, fall: f32) -> f32 {
+        let usual = 2.0 * self.step;
+        let stood = if self.repeated > 0 { 0.0 } else { f32::from(self.before) };
+        let more = fall * (stood * stood);
+        usual + if more < usual { more } else { usual }
     }
 
     /// Whether it can have been learned.
     pub fn is_sound(&self) -> bool {
-        self.step >= 0.0
+        self.step >= 0.0 && self.pending >= 0.0
     }
 }
 
-stored!(Held { repeated, before, step });
+stored!(Held { repeated, before, pending, step });
 
 #[cfg(test)]
 mod tests {
@@ -67,43 +87,58 @@ mod tests {
 
     const FALL: f32 = 1e-3;
 
-    /// Of a sensor that never sends a value again nothing changes, whatever it does.
+    /// Of a sensor that never sends a value again nothing changes, whatever it does; nor of one that stands still, but for spikes.
     #[test]
-    fn nothing_comes_again() {
+    fn no_steps() {
         let mut held = Held::default();
         for step in [1.0, -3.0, 100.0] {
             held.next();
-            assert_eq!(held.allowance(FALL, 50.0), 0.0);
             held.learn(step);
+            assert_eq!(held.allowance(FALL), 0.0);
         }
-        assert_eq!(held.step, 0.0);
+        for spike in [1.0, -2.0, 0.1] {
+            (0..9).for_each(|_| held.once_more());
+            held.next();
+            held.learn(spike);
+            held.next();
+            held.learn(-spike);
+            held.once_more();
+            assert_eq!(held.allowance(FALL), 0.0);
+        }
     }
 
-    /// What an acceleration does in the time that a value stood still for, up to a limit; and twice what the last steps were.
+    /// Twice what the last steps were, and once the value has stood still for long, four times.
     #[test]
-    fn a_value_that_stood_still() {
-        let mut held = Held { repeated: 9, ..Held::default() };
-        assert_eq!(held.allowance(FALL, 50.0), 0.0, "as long as it stands still");
-        held.next();
+    fn steps() {
+        let mut held = Held::default();
         let near = |a: f32, b: f32| (a - b).abs() < 1e-6;
-        assert!(near(held.allowance(FALL, 50.0), FALL * 100.0) && near(held.allowance(FALL, 5.0), FALL * 25.0));
-        held.learn(-0.3);
-        held.repeated = 9;
-        assert_eq!(held.allowance(FALL, 50.0), 0.6);
-        held.learn(1.0);
-        assert_eq!(held.step, 0.3, "not a step to another value");
-        held.next();
-        held.learn(0.1);
+        let step = |held: &mut Held, by: f32, stood: usize| {
+            (0..stood).for_each(|_| held.once_more());
+            held.next();
+            held.learn(by);
+        };
+        step(&mut held, -0.3, 9);
+        assert_eq!(held.allowance(FALL), 0.0, "it may be a spike");
+        held.once_more();
+        assert!(near(held.allowance(FALL), 0.6));
+        step(&mut held, 0.1, 9);
+        assert!(near(held.allowance(FALL), 0.6 + FALL * 100.0));
+        held.once_more();
         assert!(near(held.step, 0.3 - 0.125 * (0.3 - 0.1)));
-        // A larger one after a value that had not come again is none of these; smaller ones let it be forgotten.
-        held.next();
+        step(&mut held, 0.1, 1000);
+        assert!(near(held.allowance(FALL), 4.0 * held.step));
+        // What was taken for a jump: four times the largest one at most, and none of a sensor that never sends a value again.
         let before = held.step;
-        held.learn(5.0);
+        held.learn_jump(50.0, 0.01);
         assert_eq!(held.step, before);
+        held.once_more();
+        let before = held.step;
+        held.learn_jump(-50.0, 0.01);
+        assert!(near(held.step, 4.0 * before));
         for _ in 0..100 {
             held.next();
             held.learn(1e-4);
         }
-        assert!(held.step < 2e-4 && held.is_sound());
+        assert!(held.step < 1e-4 && held.is_sound());
     }
 }
