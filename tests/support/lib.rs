@@ -2,6 +2,7 @@
 
 pub mod analytic;
 pub mod drag_flight;
+pub mod drag_flights;
 pub mod flight;
 pub mod fly;
 pub mod rigid_body;

@@ -1,61 +1,32 @@
 //! Drag and disturbance with measurements missing at random from the start, with and without a first k.
 
 use fsb_core::Tuning;
-use fsb_core::regression::{DragConfig, DragEstimator, Term};
-use fsb_tests::drag_flight::{DRIFT, DragFlight, Flyer};
+use fsb_core::regression::{DragConfig, DragEstimator};
+use fsb_tests::drag_flight::{DRIFT, Flyer};
+use fsb_tests::drag_flights::{Draw, Off};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-/// The largest error of k and of a term, in their standard deviations, and how far off the velocities are from 10 s on (rms,
-/// in what measurement noise makes of them where nothing is missing) on the worst axis.
+const DRAW: Draw = Draw { periods: [0.02, 0.01, 0.005], still: 0.3, noise: -4.0 };
+
+/// 20 s: the largest error of k and of a term, in their standard deviations, and that of the velocity.
 fn fly(seed: u64, missing: f64, first: Option<f64>) -> [f64; 3] {
     let mut rng = Pcg64::seed_from_u64(seed);
-    let mut uniform = |low: f64, high: f64| rng.random_range(low..high);
-    let period = [0.02, 0.01, 0.005][uniform(0.0, 3.0) as usize];
-    let mut amplitude = [1.5, 1.5, 1.0].map(|most| uniform(0.1 * most, most));
-    amplitude.iter_mut().for_each(|a| *a = if uniform(0.0, 1.0) < 0.3 { 0.0 } else { *a });
-    let flight = DragFlight {
-        period,
-        k: uniform(0.2, 30.0),
-        drag: [(); 3].map(|()| uniform(0.0, 0.5)),
-        disturbance: [(); 3].map(|()| uniform(-0.4, 0.4)),
-        amplitude,
-        noise: 10.0_f64.powf(uniform(-4.0, -2.0)),
-        flutter: 0.0,
-    };
-    let identifier = Tuning::from_lambda(uniform(1.0, 4.0));
+    let flight = DRAW.flight(&mut rng);
+    let identifier = Tuning::from_lambda(rng.random_range(1.0..4.0));
     let nominal = first.map(|first| first * flight.k);
-    let config = DragConfig { drift: DRIFT, identifier, nominal, ..DragConfig::new(period) };
+    let config = DragConfig { drift: DRIFT, identifier, nominal, ..DragConfig::new(flight.period) };
     let mut estimator = DragEstimator::new(&config).expect("a valid configuration");
-    let mut flyer = Flyer::new(&flight);
-    let (mut k, mut term, mut squares, mut count) = (0.0_f64, 0.0_f64, [0.0; 3], 0.0);
-    for n in 0..(20.0 / period) as u32 {
+    let (mut flyer, mut off) = (Flyer::new(&flight), Off::default());
+    for n in 0..(20.0 / flight.period) as u32 {
         let instant = flyer.step(&flight, &mut rng);
         let came = n == 0 || !rng.random_bool(missing);
         estimator.measure(&instant.measured.map(|y| came.then_some(y))).expect("in step");
-        if let Some(known) = estimator.parameter() {
-            k = k.max((f64::from(known.value) - flight.k).abs() / f64::from(known.sd()));
-        }
-        for (i, terms) in estimator.terms().into_iter().enumerate() {
-            for (told, truth) in [(terms.drag, flight.drag[i]), (terms.disturbance, flight.disturbance[i])] {
-                if let Term::Known { value, sd } = told {
-                    term = term.max((f64::from(value) - truth).abs() / f64::from(sd));
-                }
-            }
-        }
-        if f64::from(n) * period > 10.0 {
-            count += 1.0;
-            for ((sum, state), truth) in squares.iter_mut().zip(estimator.states()).zip(instant.velocity) {
-                *sum += state.map_or(1.0, |state| (f64::from(state.velocity) - truth).powi(2));
-            }
-        }
+        off.look(&estimator, &flight, &instant);
         estimator.apply(&instant.force);
     }
-    // λ = 10: var v = 2 (1-p)³/(1+p)³ σ²/T².
-    let p = (-10.0 * period).exp();
-    let noise = flight.noise / period * (2.0 * ((1.0 - p) / (1.0 + p)).powi(3)).sqrt();
-    [k, term, squares.iter().map(|sum: &f64| (sum / count).sqrt() / noise).fold(0.0, f64::max)]
+    [off.k, off.term, off.velocity(&flight)]
 }
 
 /// In 300 flights each no k and no term is ever off by more than 5 of its standard deviations (it was by 5.8 and 6.8), and in nine of ten flights
