@@ -8,4 +8,5 @@ pub mod fly;
 pub mod rigid_body;
 pub mod seal;
 pub mod six_axes;
+pub mod turbulence;
 pub mod words;

@@ -1,6 +1,7 @@
 //! A configuration validated and turned into constants.
 
 use super::config::{DragConfig, Identify};
+use super::gusts::Gusts;
 use super::velocity::VelocityDesign;
 use crate::checks::{Checks, Range, Rule, rounded_up};
 use crate::error::ConfigError;
@@ -50,6 +51,7 @@ pub(super) struct Common {
     pub disturbance_variance: f32,
     pub drag_prior: f32,
     pub disturbance_prior: f32,
+    pub gusts: Gusts,
     /// T
     pub period: f32,
     /// ε in measurements
@@ -108,6 +110,11 @@ impl Common {
         let disturbance_variance = square(&Rule("disturbance_sd_limit", &Range::POSITIVE), config.disturbance_sd_limit);
         let drag_prior = square(&Rule("drag_prior_sd", &Range::MAGNITUDE), config.drag_prior_sd);
         let disturbance_prior = square(&Rule("disturbance_prior_sd", &Range::MAGNITUDE), config.disturbance_prior_sd);
+        let mut gusts = Gusts::default();
+        if let Some(sd) = config.disturbance_sd {
+            checks.number(&Rule("disturbance_sd", &Range::STANDARD_DEVIATION), sd);
+            gusts = Gusts::expected(sd, config.identifier.lambda, row, identifier.scale2());
+        }
         let parameter_settle = checks.samples("parameter_settle", config.parameter_settle, Wide::new(period));
         let state_settle = checks.samples("state_settle", config.state_settle, Wide::new(period));
         checks.number(&Rule("position_limit", &Range::LIMIT), config.position_limit);
@@ -138,6 +145,7 @@ impl Common {
             disturbance_variance,
             drag_prior,
             disturbance_prior,
+            gusts,
             period: period as f32,
             parameter_settle,
             state_settle,

@@ -34,10 +34,16 @@ pub(super) fn read(axes: &mut [Axis], common: &Common) -> Estimate {
         axis.share = axis.weight(noisiest, common) * per_information;
         value += axis.share * axis.reduced.k();
     }
-    let mut variance = 0.0;
+    let (mut variance, mut answered) = (0.0, 0.0);
     for axis in axes.iter_mut().filter(|axis| axis.share > 0.0) {
         axis.weigh(value, common);
         variance += axis.share * axis.share * axis.k_variance(common);
+        answered += axis.share * axis.answered(common);
+    }
+    // Where there are none it is zero, whatever k.
+    if answered > 0.0 {
+        answered /= value;
+        variance += answered * answered;
     }
     Estimate { value, variance: if variance.is_finite() { variance } else { f32::MAX } }
 }

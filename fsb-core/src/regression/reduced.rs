@@ -8,6 +8,7 @@
 //! A term left out is not known to be zero. What it would put into the others is linear in it; so its variance, that of what it
 //! may be, is one of theirs.
 
+use super::gusts::Gusts;
 use super::triangle::NOTHING;
 
 /// A value and its variance.
@@ -43,10 +44,10 @@ impl Share {
         Self { energy, noise: if factor > Self::FLOOR { factor * energy } else { Self::FLOOR * energy } }
     }
 
-    /// Over the information, the variance of what this row of the triangle tells.
-    fn variance(&self, row_variance: f32) -> f32 {
+    /// Over the information, the variance of what this row of the triangle tells; `gusts` adds to that of a row, at any frequency.
+    fn variance(&self, row_variance: f32, gusts: f32) -> f32 {
         let factor = self.noise / self.energy;
-        row_variance * factor / self.energy
+        (row_variance * factor + gusts) / self.energy
     }
 }
 
@@ -99,6 +100,10 @@ pub struct Reduced {
     in_u: Untold,
     in_v: Untold,
     in_f: Untold,
+    /// What gusts add to the variance of a row.
+    gusts: f32,
+    /// What goes with the velocity of them, Σ over the rows.
+    carried: f32,
 }
 
 impl Reduced {
@@ -121,6 +126,14 @@ impl Reduced {
         kept
     }
 
+    /// The same in gusts.
+    #[inline(always)]
+    pub(super) fn in_gusts(mut self, gusts: &Gusts, constant: f32) -> Self {
+        self.gusts = gusts.row;
+        self.carried = gusts.carried * constant;
+        self
+    }
+
     /// The information on k: what of Σ ẑ0² the axis's own unknowns do not take.
     pub const fn information(&self) -> f32 {
         self.f.energy
@@ -133,7 +146,7 @@ impl Reduced {
 
     /// Variance of that, `row_variance` being that of a row at the peak of the spectrum of noise.
     pub fn k_variance(&self, row_variance: f32) -> f32 {
-        self.f.variance(row_variance)
+        self.f.variance(row_variance, self.gusts)
     }
 
     /// Variance of that by the terms left out.
@@ -156,8 +169,14 @@ impl Reduced {
     pub fn drag(&self, k: Estimate, row_variance: f32) -> Estimate {
         Estimate {
             value: self.vy - self.vf * k.value,
-            variance: self.v.variance(row_variance) + self.vf * self.vf * k.variance,
+            variance: self.own_drag_variance(row_variance) + self.vf * self.vf * k.variance,
         }
+    }
+
+    /// The variance of D for a k that is known.
+    fn own_drag_variance(&self, row_variance: f32) -> f32 {
+        let pulled = self.carried / self.v.energy;
+        self.v.variance(row_variance, self.gusts) + pulled * pulled
     }
 
     /// Variance of that by the terms left out.
@@ -168,10 +187,10 @@ impl Reduced {
     /// d for this k and this D, which is zero where it does not take part.
     pub fn disturbance(&self, k: Estimate, drag: f32, row_variance: f32) -> Estimate {
         let by_k = self.uf - self.uv * self.vf;
-        let by_drag = if self.v.energy > 0.0 { self.uv * self.uv * self.v.variance(row_variance) } else { 0.0 };
+        let by_drag = if self.v.energy > 0.0 { self.uv * self.uv * self.own_drag_variance(row_variance) } else { 0.0 };
         Estimate {
             value: self.uy - self.uv * drag - self.uf * k.value,
-            variance: self.u.variance(row_variance) + by_drag + by_k * by_k * k.variance,
+            variance: self.u.variance(row_variance, self.gusts) + by_drag + by_k * by_k * k.variance,
         }
     }
 

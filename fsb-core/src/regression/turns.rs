@@ -111,7 +111,8 @@ impl Axis {
         self.columns = columns;
         // Where nothing constant is known to pull, a constant force is one against d, which may be there without being told.
         let constant = columns.disturbance || (self.own.identify.disturbance && self.own.drift == 0.0);
-        self.reduced = self.triangle.keep(constant, columns.drag, common.row_rate2);
+        let reduced = self.triangle.keep(constant, columns.drag, common.row_rate2);
+        self.reduced = reduced.in_gusts(&common.gusts, self.triangle.constant());
     }
 
     /// The rows taken in, as far as the window was open: the noise of ẑ2 grows faster with it than its signals do.
@@ -164,7 +165,12 @@ impl Axis {
         0.25 * share * share / (self.reduced.k() * self.reduced.k())
     }
 
-    /// The variance of this axis's k.
+    /// What a controller that answers gusts pulls this axis's k by at the most, times k.
+    pub fn answered(&self, common: &Common) -> f32 {
+        common.gusts.answered * self.triangle.constant() / self.reduced.information()
+    }
+
+    /// The variance of this axis's k, but for what answers gusts, which all axes have alike.
     pub fn k_variance(&self, common: &Common) -> f32 {
         self.reduced.k_variance(self.row_variance) + self.untold(common) + self.pulled()
     }
@@ -173,7 +179,7 @@ impl Axis {
     /// and noise fed back leave the less, the more of it there is.
     pub fn weight(&self, row_variance: f32, common: &Common) -> f32 {
         let information = self.reduced.information();
-        let variance = row_variance / information;
+        let variance = (row_variance + common.gusts.row) / information;
         let bias = TRUST2 * self.untold(common) + self.pulled();
         let share = if bias > 0.0 { variance / (variance + bias) } else { 1.0 };
         // Without noise, too, something is left: it may be all there is.
