@@ -33,6 +33,8 @@ pub(super) struct Common {
     pub row_every: u32,
     /// One over that.
     pub per_row_every: f32,
+    /// T²/12 over the square of the time between two rows: what the trapezoidal rule leaves out is that many squared steps.
+    pub trapezoid: f32,
     /// Items of work between two rows, and how many of them fall to one measurement.
     pub items_per_measurement: u32,
     /// 1 - μ over a row.
@@ -132,6 +134,7 @@ impl Common {
             gains_every,
             row_every,
             per_row_every: 1.0 / row_every as f32,
+            trapezoid: 1.0 / (12.0 * row_every as f32 * row_every as f32),
             items_per_measurement: items(N as u32).div_ceil(row_every),
             forgetting: decayed(Wide::new(fading)).rounded(),
             colour: (0.79 / (config.identifier.lambda * row)) as f32,

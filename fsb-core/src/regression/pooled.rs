@@ -5,6 +5,9 @@ use super::design::Common;
 use super::reduced::Estimate;
 use crate::readout::{Parameter, ParameterStatus};
 
+/// The square of what rounding leaves of k, relative to it: 2^-22.
+const ROUNDING2: f32 = 5.7e-14;
+
 /// k̂ and its status.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pooled {
@@ -45,6 +48,7 @@ pub(super) fn read(axes: &mut [Axis], common: &Common) -> Estimate {
         answered /= value;
         variance += answered * answered;
     }
+    variance += ROUNDING2 * (value * value);
     Estimate { value, variance: if variance.is_finite() { variance } else { f32::MAX } }
 }
 

@@ -5,6 +5,9 @@
 //! of one, a slower one fewer by 27/4 w²/(1 + w)³, w = (ω/λ)². Errors of the model are slow, too, so that the factor is
 //! not taken below a quarter: the standard deviation of d is two to four times too large for white noise alone.
 //!
+//! What the trapezoidal rule leaves out of ẑv, T²/12 ẑv'' (`velocity`), pulls D by as much of it as goes with ẑv, and k at the worst by
+//! all of D times it over what is left of ẑ0; steps from row to row tell ẑv ẑv''. Squares of both count.
+//!
 //! A term left out is not known to be zero. What it would put into the others is linear in it; so its variance, that of what it
 //! may be, is one of theirs.
 
@@ -65,12 +68,9 @@ impl Untold {
         drag * drag * unknown.drag_variance + disturbance * disturbance * unknown.disturbance_variance
     }
 
-    /// x ← x + s (row - first x), as the right-hand side itself; returns the row without what the triangle knows of it.
-    fn turn(&mut self, first: f32, row: Self, s: f32) -> Self {
-        let left = Self { drag: row.drag - first * self.drag, disturbance: row.disturbance - first * self.disturbance };
-        self.drag += s * left.drag;
-        self.disturbance += s * left.disturbance;
-        left
+    /// As the right-hand side itself; returns the row without what the triangle knows of it.
+    fn turn(&mut self, row: Self, by: &Turn) -> Self {
+        Self { drag: by.apply(&mut self.drag, row.drag), disturbance: by.apply(&mut self.disturbance, row.disturbance) }
     }
 }
 
@@ -104,6 +104,8 @@ pub struct Reduced {
     gusts: f32,
     /// What goes with the velocity of them, Σ over the rows.
     carried: f32,
+    /// What the rule by which ẑv is taken leaves out, times ẑv, Σ over the rows.
+    bent: f32,
 }
 
 impl Reduced {
@@ -134,6 +136,13 @@ impl Reduced {
         self
     }
 
+    /// The same with what the rule by which ẑv is taken leaves out of it: T²/12 ẑv''.
+    #[inline(always)]
+    pub(super) fn with_rule(mut self, bent: f32) -> Self {
+        self.bent = bent;
+        self
+    }
+
     /// The information on k: what of Σ ẑ0² the axis's own unknowns do not take.
     pub const fn information(&self) -> f32 {
         self.f.energy
@@ -146,7 +155,13 @@ impl Reduced {
 
     /// Variance of that, `row_variance` being that of a row at the peak of the spectrum of noise.
     pub fn k_variance(&self, row_variance: f32) -> f32 {
-        self.f.variance(row_variance, self.gusts)
+        self.f.variance(row_variance, self.gusts) + self.by_rule()
+    }
+
+    /// The square of what k is off by where all that the rule leaves out of D ẑv goes with ẑ0.
+    fn by_rule(&self) -> f32 {
+        let bent = self.bent * (self.vy - self.vf * self.fy);
+        if self.v.energy > 0.0 { (bent / self.v.energy) * (bent / self.f.energy) } else { 0.0 }
     }
 
     /// Variance of that by the terms left out.
@@ -167,16 +182,14 @@ impl Reduced {
 
     /// D for this k.
     pub fn drag(&self, k: Estimate, row_variance: f32) -> Estimate {
-        Estimate {
-            value: self.vy - self.vf * k.value,
-            variance: self.own_drag_variance(row_variance) + self.vf * self.vf * k.variance,
-        }
+        let value = self.vy - self.vf * k.value;
+        Estimate { value, variance: self.own_drag_variance(value, row_variance) + self.vf * self.vf * k.variance }
     }
 
     /// The variance of D for a k that is known.
-    fn own_drag_variance(&self, row_variance: f32) -> f32 {
-        let pulled = self.carried / self.v.energy;
-        self.v.variance(row_variance, self.gusts) + pulled * pulled
+    fn own_drag_variance(&self, drag: f32, row_variance: f32) -> f32 {
+        let (pulled, bent) = (self.carried / self.v.energy, self.bent / self.v.energy * drag);
+        self.v.variance(row_variance, self.gusts) + (pulled * pulled + bent * bent)
     }
 
     /// Variance of that by the terms left out.
@@ -187,7 +200,8 @@ impl Reduced {
     /// d for this k and this D, which is zero where it does not take part.
     pub fn disturbance(&self, k: Estimate, drag: f32, row_variance: f32) -> Estimate {
         let by_k = self.uf - self.uv * self.vf;
-        let by_drag = if self.v.energy > 0.0 { self.uv * self.uv * self.own_drag_variance(row_variance) } else { 0.0 };
+        let by_drag =
+            if self.v.energy > 0.0 { self.uv * self.uv * self.own_drag_variance(drag, row_variance) } else { 0.0 };
         Estimate {
             value: self.uy - self.uv * drag - self.uf * k.value,
             variance: self.u.variance(row_variance, self.gusts) + by_drag + by_k * by_k * k.variance,
@@ -202,29 +216,43 @@ impl Reduced {
     /// A row of the triangle whose own column is left out.
     fn take_in(&mut self, row: Share, v: f32, f: f32, y: f32, untold: Untold) {
         let (mut weight, noise) = (row.energy, row.noise / row.energy);
-        let s = rotate(&mut self.v, v, &mut weight, noise);
-        let left_f = f - v * self.vf;
-        let left_y = y - v * self.vy;
-        self.vf += s * left_f;
-        self.vy += s * left_y;
-        let left_untold = self.in_v.turn(v, untold, s);
-        let s = rotate(&mut self.f, left_f, &mut weight, noise);
-        let left = left_y - left_f * self.fy;
-        self.fy += s * left;
-        self.in_f.turn(left_f, left_untold, s);
+        let turn = rotate(&mut self.v, v, &mut weight, noise);
+        let (left_f, left_y) = (turn.apply(&mut self.vf, f), turn.apply(&mut self.vy, y));
+        let left_untold = self.in_v.turn(untold, &turn);
+        let turn = rotate(&mut self.f, left_f, &mut weight, noise);
+        let left = turn.apply(&mut self.fy, left_y);
+        self.in_f.turn(left_untold, &turn);
         self.residual += weight * left * left;
     }
 }
 
-fn rotate(to: &mut Share, x: f32, weight: &mut f32, noise: f32) -> f32 {
+/// How a row that begins with `first` changes one of the triangle.
+struct Turn {
+    first: f32,
+    s: f32,
+    /// The part of the row's energy that was there before.
+    before: f32,
+}
+
+impl Turn {
+    /// r ← r + s (x - first r), of which the bracket is returned: what is left of x. Where next to nothing was there before, r may be
+    /// anything, and what it should be is not to be had by correcting it.
+    fn apply(&self, r: &mut f32, x: f32) -> f32 {
+        let left = x - self.first * *r;
+        *r = if self.before < 0.5 { (x - left * self.before) / self.first } else { *r + self.s * left };
+        left
+    }
+}
+
+fn rotate(to: &mut Share, x: f32, weight: &mut f32, noise: f32) -> Turn {
     let energy = *weight * x * x;
     if energy < NOTHING {
-        return 0.0;
+        return Turn { first: x, s: 0.0, before: 1.0 };
     }
-    let before = to.energy;
+    let before = to.energy / (to.energy + energy);
     to.energy += energy;
     to.noise += energy * noise;
     let s = *weight * x / to.energy;
-    *weight *= before / to.energy;
-    s
+    *weight *= before;
+    Turn { first: x, s, before }
 }

@@ -107,6 +107,11 @@ impl Triangle {
         Reduced::new([u, v, f], rows, self.residual.value(), disturbance, drag)
     }
 
+    /// Σ of the squared steps from row to row of what ẑu leaves of ẑv.
+    pub(super) const fn v_steps(&self) -> f32 {
+        self.v_steps.value()
+    }
+
     /// Whether ẑv has a part of its own, beyond what rounding leaves of a constant.
     pub(crate) fn is_moving(&self) -> bool {
         let (own, du, uv) = (self.dv.value(), self.du.value(), self.uv.value());

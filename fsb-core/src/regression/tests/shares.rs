@@ -90,6 +90,24 @@ fn what_is_not_known_of_the_others() {
     close(both as f32, drag + drag_by_k * drag_by_k * 0.3, "D by both");
 }
 
+/// What the rule leaves out of ẑv, a share of its squared steps, pulls D by that share of D, and k by all of it at the worst.
+#[test]
+fn the_rule() {
+    let rows = (0..4000).map(|n| {
+        let t = RATE * f64::from(n);
+        let (v, f) = (0.7 * libm::sin(0.8 * t), libm::cos(1.7 * t));
+        [1.0, v, f, 0.9 * f + 0.4 * v]
+    });
+    let (triangle, squares) = both(rows, 0.0);
+    let reduced = triangle.keep(true, true, (RATE * RATE) as f32).with_rule(0.3 * triangle.v_steps());
+    let energies = [squares.without(&[U]).product(V, V), squares.without(&[U, V]).product(F, F)];
+    // Of a sine the steps are its derivative's.
+    let share = 0.3 * (0.8 * RATE).powi(2);
+    let k = Estimate { value: 0.9, variance: 0.0 };
+    close(reduced.drag(k, 0.0).variance, (0.4 * share).powi(2), "D");
+    close(reduced.k_variance(0.0), (0.4 * share).powi(2) * energies[0] / energies[1], "k");
+}
+
 /// Without D in the model nothing of it is unknown.
 #[test]
 fn no_drag_no_doubt() {
