@@ -138,8 +138,12 @@ impl Axis {
 
     /// Rows are not independent, and those that the unknowns have taken do not count; `taken` is the part of k's.
     fn variance(&self, residual: f32, taken: f32, common: &Common) -> f32 {
-        let worth = self.rows(common) - common.colour * (self.columns.count() + taken);
-        let variance = common.colour * residual / worth * self.stretch2();
+        let rows = self.rows(common);
+        let taken = common.colour * (self.columns.count() + taken);
+        let worth = rows - taken;
+        // In motion the model may be wrong by more than hover shows, however long that was.
+        let uneven = if self.excited { self.triangle.uneven(rows, taken) } else { 0.0 };
+        let variance = common.colour * (residual + uneven) / worth * self.stretch2();
         if worth > 0.0 && variance >= 0.0 { variance } else { f32::MAX }
     }
 

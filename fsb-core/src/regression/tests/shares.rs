@@ -115,3 +115,32 @@ fn no_drag_no_doubt() {
     let reduced = triangle.keep(true, false, (RATE * RATE) as f32);
     close(reduced.disturbance(NOTHING, 0.0, 0.7).variance, 0.25 * 0.7 / squares.product(U, U), "d");
 }
+
+/// Rows that say nothing of k, with small residuals, and then ones that do, with large ones: those count.
+#[test]
+fn residuals_of_the_rows_that_tell() {
+    let (still, moving) = (3000_u16, 600_u16);
+    let rows = |from: u16| {
+        let mut noise = 0.37_f64;
+        (from..still + moving).map(move |n| {
+            noise = (noise * 97.3 + 0.123).fract();
+            let (f, size) = if n < still { (0.0, 0.1) } else { (libm::sin(0.141 * f64::from(n)), 2.0) };
+            [1.0, 0.0, f, 0.8 * f + size * libm::sqrt(12.0) * (noise - 0.5)]
+        })
+    };
+    let (triangle, _) = both(rows(0), 0.0);
+    let of = |rows: f64| f64::from(triangle.uneven(rows as f32, 0.0));
+    let (all, sum) = (f64::from(still + moving), f64::from(still) * 0.01 + f64::from(moving) * 4.0);
+    // Twice as many rows would have twice the first part.
+    let telling = (of(2.0 * all) - of(all)) / all;
+    assert!((telling / 4.0 - 1.0).abs() < 0.1, "{telling}");
+    assert!((of(all) / (4.0 * all - sum) - 1.0).abs() < 0.1, "{}", of(all));
+    // Σ x⁴/(Σ x²)² of a sine is 3/2 of one over its length.
+    let taken = 100.0;
+    let worth = of(all) / f64::from(triangle.uneven(all as f32, taken));
+    assert!((worth / (1.0 - 150.0 / f64::from(moving)) - 1.0).abs() < 0.02, "{worth}");
+    assert_eq!(triangle.uneven(all as f32, 500.0), f32::MAX);
+    // All alike: nothing.
+    let (triangle, _) = both(rows(still), 0.0);
+    assert_eq!(triangle.uneven(f32::from(moving), 0.0), 0.0);
+}
