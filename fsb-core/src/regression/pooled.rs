@@ -41,9 +41,10 @@ pub(super) fn read(axes: &mut [Axis], common: &Common) -> Estimate {
     for axis in axes.iter_mut().filter(|axis| axis.share > 0.0) {
         axis.weigh(value, common);
         variance += axis.share * axis.share * axis.k_variance(common);
-        answered += axis.share * axis.answered(common);
+        if common.gusts.answered > 0.0 {
+            answered += axis.share * axis.answered(common);
+        }
     }
-    // Where there are none it is zero, whatever k.
     if answered > 0.0 {
         answered /= value;
         variance += answered * answered;

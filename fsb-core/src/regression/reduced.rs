@@ -68,9 +68,16 @@ impl Untold {
         drag * drag * unknown.drag_variance + disturbance * disturbance * unknown.disturbance_variance
     }
 
-    /// As the right-hand side itself; returns the row without what the triangle knows of it.
-    fn turn(&mut self, row: Self, by: &Turn) -> Self {
-        Self { drag: by.apply(&mut self.drag, row.drag), disturbance: by.apply(&mut self.disturbance, row.disturbance) }
+    /// x ← x + s (row - first x), as the right-hand side itself; returns the row without what the triangle knows of it.
+    fn turn(&mut self, first: f32, row: Self, s: f32) -> Self {
+        let left = Self { drag: row.drag - first * self.drag, disturbance: row.disturbance - first * self.disturbance };
+        self.drag += s * left.drag;
+        self.disturbance += s * left.disturbance;
+        left
+    }
+
+    fn over(self, first: f32) -> Self {
+        Self { drag: self.drag / first, disturbance: self.disturbance / first }
     }
 }
 
@@ -130,17 +137,15 @@ impl Reduced {
 
     /// The same in gusts.
     #[inline(always)]
-    pub(super) fn in_gusts(mut self, gusts: &Gusts, constant: f32) -> Self {
+    pub(super) fn set_gusts(&mut self, gusts: &Gusts, constant: f32) {
         self.gusts = gusts.row;
         self.carried = gusts.carried * constant;
-        self
     }
 
     /// The same with what the rule by which ẑv is taken leaves out of it: T²/12 ẑv''.
     #[inline(always)]
-    pub(super) fn with_rule(mut self, bent: f32) -> Self {
+    pub(super) fn set_rule(&mut self, bent: f32) {
         self.bent = bent;
-        self
     }
 
     /// The information on k: what of Σ ẑ0² the axis's own unknowns do not take.
@@ -160,8 +165,12 @@ impl Reduced {
 
     /// The square of what k is off by where all that the rule leaves out of D ẑv goes with ẑ0.
     fn by_rule(&self) -> f32 {
-        let bent = self.bent * (self.vy - self.vf * self.fy);
-        if self.v.energy > 0.0 { (bent / self.v.energy) * (bent / self.f.energy) } else { 0.0 }
+        if self.v.energy > 0.0 {
+            let bent = self.bent * (self.vy - self.vf * self.fy);
+            (bent / self.v.energy) * (bent / self.f.energy)
+        } else {
+            0.0
+        }
     }
 
     /// Variance of that by the terms left out.
@@ -188,7 +197,8 @@ impl Reduced {
 
     /// The variance of D for a k that is known.
     fn own_drag_variance(&self, drag: f32, row_variance: f32) -> f32 {
-        let (pulled, bent) = (self.carried / self.v.energy, self.bent / self.v.energy * drag);
+        let per_energy = 1.0 / self.v.energy;
+        let (pulled, bent) = (self.carried * per_energy, self.bent * per_energy * drag);
         self.v.variance(row_variance, self.gusts) + (pulled * pulled + bent * bent)
     }
 
@@ -216,43 +226,40 @@ impl Reduced {
     /// A row of the triangle whose own column is left out.
     fn take_in(&mut self, row: Share, v: f32, f: f32, y: f32, untold: Untold) {
         let (mut weight, noise) = (row.energy, row.noise / row.energy);
-        let turn = rotate(&mut self.v, v, &mut weight, noise);
-        let (left_f, left_y) = (turn.apply(&mut self.vf, f), turn.apply(&mut self.vy, y));
-        let left_untold = self.in_v.turn(untold, &turn);
-        let turn = rotate(&mut self.f, left_f, &mut weight, noise);
-        let left = turn.apply(&mut self.fy, left_y);
-        self.in_f.turn(left_untold, &turn);
+        let (s, alone) = rotate(&mut self.v, v, &mut weight, noise);
+        let left_f = f - v * self.vf;
+        let left_y = y - v * self.vy;
+        self.vf += s * left_f;
+        self.vy += s * left_y;
+        let left_untold = self.in_v.turn(v, untold, s);
+        if alone {
+            (self.vf, self.vy, self.in_v) = (f / v, y / v, untold.over(v));
+        }
+        let (s, alone) = rotate(&mut self.f, left_f, &mut weight, noise);
+        let left = left_y - left_f * self.fy;
+        self.fy += s * left;
+        self.in_f.turn(left_f, left_untold, s);
+        if alone {
+            (self.fy, self.in_f) = (left_y / left_f, left_untold.over(left_f));
+        }
         self.residual += weight * left * left;
     }
 }
 
-/// How a row that begins with `first` changes one of the triangle.
-struct Turn {
-    first: f32,
-    s: f32,
-    /// The part of the row's energy that was there before.
-    before: f32,
-}
+/// A row next to whose energy what was there before is less than this share of it stands alone: that may be anything, noise over rounding,
+/// and what it should be is not to be had by correcting it.
+const NEXT_TO_NOTHING: f32 = 6.1e-5;
 
-impl Turn {
-    /// r ← r + s (x - first r), of which the bracket is returned: what is left of x. Where next to nothing was there before, r may be
-    /// anything, and what it should be is not to be had by correcting it.
-    fn apply(&self, r: &mut f32, x: f32) -> f32 {
-        let left = x - self.first * *r;
-        *r = if self.before < 0.5 { (x - left * self.before) / self.first } else { *r + self.s * left };
-        left
-    }
-}
-
-fn rotate(to: &mut Share, x: f32, weight: &mut f32, noise: f32) -> Turn {
+/// s, and whether the row stands alone.
+fn rotate(to: &mut Share, x: f32, weight: &mut f32, noise: f32) -> (f32, bool) {
     let energy = *weight * x * x;
     if energy < NOTHING {
-        return Turn { first: x, s: 0.0, before: 1.0 };
+        return (0.0, false);
     }
-    let before = to.energy / (to.energy + energy);
+    let before = to.energy;
     to.energy += energy;
     to.noise += energy * noise;
     let s = *weight * x / to.energy;
-    *weight *= before;
-    Turn { first: x, s, before }
+    *weight *= before / to.energy;
+    (s, before < NEXT_TO_NOTHING * energy)
 }

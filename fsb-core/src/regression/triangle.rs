@@ -95,12 +95,13 @@ impl Triangle {
     /// What the residuals of `rows` would add up to if all were as large as those that say most of k, beyond what they do add up to; none where
     /// it is no more than that again. As many of those as are `taken` by the unknowns leave nothing.
     pub(super) fn uneven(&self, rows: f32, taken: f32) -> f32 {
-        let more = self.telling.value() * rows - self.residual.value();
-        if more > self.residual.value() {
-            let worth = 1.0 - taken * self.concentration.value();
-            if worth > 0.0 { more / worth } else { f32::MAX }
-        } else {
-            0.0
+        let residual = self.residual.value();
+        let more = self.telling.value() * rows - residual;
+        let worth = 1.0 - taken * self.concentration.value();
+        match more > residual {
+            false => 0.0,
+            true if worth > 0.0 => more / worth,
+            true => f32::MAX,
         }
     }
 

@@ -111,9 +111,9 @@ impl Axis {
         self.columns = columns;
         // Where nothing constant is known to pull, a constant force is one against d, which may be there without being told.
         let constant = columns.disturbance || (self.own.identify.disturbance && self.own.drift == 0.0);
-        let reduced = self.triangle.keep(constant, columns.drag, common.row_rate2);
-        let reduced = reduced.in_gusts(&common.gusts, self.triangle.constant());
-        self.reduced = reduced.with_rule(common.trapezoid * self.triangle.v_steps());
+        self.reduced = self.triangle.keep(constant, columns.drag, common.row_rate2);
+        self.reduced.set_gusts(&common.gusts, self.triangle.constant());
+        self.reduced.set_rule(common.trapezoid * self.triangle.v_steps());
     }
 
     /// The rows taken in, as far as the window was open: the noise of ẑ2 grows faster with it than its signals do.

@@ -35,7 +35,8 @@ fn axis(mean: f64, common: &Common) -> (Axis, super::squares::Squares) {
     let (triangle, squares) = both(rows, 0.0);
     let mut axis = Axis::start(AxisDesign::new(0.0, Identify::BOTH).expect("valid"));
     (axis.triangle, axis.excited) = (triangle, true);
-    axis.reduced = triangle.keep(true, true, common.row_rate2).in_gusts(&common.gusts, triangle.constant());
+    axis.reduced = triangle.keep(true, true, common.row_rate2);
+    axis.reduced.set_gusts(&common.gusts, triangle.constant());
     (axis, squares)
 }
 

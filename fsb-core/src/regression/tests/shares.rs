@@ -99,7 +99,8 @@ fn the_rule() {
         [1.0, v, f, 0.9 * f + 0.4 * v]
     });
     let (triangle, squares) = both(rows, 0.0);
-    let reduced = triangle.keep(true, true, (RATE * RATE) as f32).with_rule(0.3 * triangle.v_steps());
+    let mut reduced = triangle.keep(true, true, (RATE * RATE) as f32);
+    reduced.set_rule(0.3 * triangle.v_steps());
     let energies = [squares.without(&[U]).product(V, V), squares.without(&[U, V]).product(F, F)];
     // Of a sine the steps are its derivative's.
     let share = 0.3 * (0.8 * RATE).powi(2);
