@@ -224,6 +224,7 @@ impl Reduced {
     }
 
     /// A row of the triangle whose own column is left out.
+    #[inline(always)]
     fn take_in(&mut self, row: Share, v: f32, f: f32, y: f32, untold: Untold) {
         let (mut weight, noise) = (row.energy, row.noise / row.energy);
         let (s, alone) = rotate(&mut self.v, v, &mut weight, noise);

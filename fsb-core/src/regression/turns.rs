@@ -124,11 +124,12 @@ impl Axis {
     /// The variance of the residual for this k.
     pub fn weigh(&mut self, k: f32, common: &Common) {
         // By terms left out this axis's own k may differ from that of all of them: no matter of noise.
-        self.row_variance = if self.untold(common) > 0.0 {
-            self.own_variance(common)
+        let (residual, taken) = if self.untold(common) > 0.0 {
+            (self.reduced.least_residual(), 1.0)
         } else {
-            self.variance(self.reduced.residual(k), self.share, common)
+            (self.reduced.residual(k), self.share)
         };
+        self.row_variance = self.variance(residual, taken, common);
     }
 
     /// The variance of the residual for the k that this axis alone says.
