@@ -72,6 +72,8 @@ impl Range {
     pub const POSITIVE: Self = Self::positive(0.0, f32::INFINITY);
     /// A limit of what is measured or applied, and the like.
     pub const LIMIT: Self = Self::positive(0.0, 1e6);
+    /// A standard deviation that need not be known.
+    pub const STANDARD_DEVIATION: Self = Self::positive(1e-12, 1e6);
     /// The magnitude of a drift, and the like.
     pub const MAGNITUDE: Self = Self::from_zero(1e6);
     /// A period over the time constant of what fades.

@@ -97,6 +97,11 @@ impl Flyer {
 
     /// The present instant, and on to the next one. The law flies on the truth: the noise is only measured.
     pub fn step(&mut self, flight: &DragFlight, rng: &mut Pcg64) -> Instant {
+        self.step_in(flight, [0.0; 3], rng)
+    }
+
+    /// The same with accelerations [m/s²] beside the flight's until the next instant, which the law knows by their effect alone.
+    pub fn step_in(&mut self, flight: &DragFlight, gusts: [f64; 3], rng: &mut Pcg64) -> Instant {
         let unit = Normal::new(0.0, 1.0).expect("a standard deviation");
         let t = self.n as f64 * flight.period;
         self.n += 1;
@@ -114,7 +119,8 @@ impl Flyer {
                 (flight.force(i, t, &self.axes[i]) + flutter) as f32
             }),
         };
-        for (axis, f) in self.axes.iter_mut().zip(instant.force) {
+        for ((axis, f), gust) in self.axes.iter_mut().zip(instant.force).zip(gusts) {
+            axis.acceleration += gust;
             axis.step(f64::from(f), flight.period);
         }
         instant

@@ -2,9 +2,11 @@
 
 pub mod analytic;
 pub mod drag_flight;
+pub mod drag_flights;
 pub mod flight;
 pub mod fly;
 pub mod rigid_body;
 pub mod seal;
 pub mod six_axes;
+pub mod turbulence;
 pub mod words;

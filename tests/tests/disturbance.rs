@@ -5,31 +5,11 @@ use fsb_core::vehicle::{ChangeRule, Expected, VehicleConfig, VehicleEstimator};
 use fsb_core::{Estimator, EstimatorConfig, Tuning};
 use fsb_tests::rigid_body::RigidBody;
 use fsb_tests::six_axes::{Course, Flight};
+use fsb_tests::turbulence::Turbulence;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
-
-/// First-order turbulence of standard deviation `sd` and correlation time `tau` (s), steady from the start.
-struct Turbulence<const N: usize> {
-    acceleration: [f64; N],
-    sd: f64,
-    tau: f64,
-}
-
-impl<const N: usize> Turbulence<N> {
-    fn new(sd: f64, tau: f64, rng: &mut impl Rng) -> Self {
-        Self { acceleration: [(); N].map(|()| sd * normal(rng)), sd, tau }
-    }
-
-    fn over(&mut self, period: f64, rng: &mut impl Rng) -> [f64; N] {
-        let keep = (-period / self.tau).exp();
-        for a in &mut self.acceleration {
-            *a = keep * *a + self.sd * (1.0 - keep * keep).sqrt() * normal(rng);
-        }
-        self.acceleration
-    }
-}
 
 fn normal(rng: &mut impl Rng) -> f64 {
     StandardNormal.sample(rng)

@@ -25,7 +25,7 @@ fn every_number() {
     let rate = |name| and(name, &[(1001.0, TooFastForPeriod(name)), (0.9e-3, TooSlowForPeriod(name))]);
     let limit = |name| and(name, &[(1.1e6, OutOfRange(name))]);
     let settle = |name| vec![(f64::NAN, NonFinite(name)), (-1e-9, Negative(name)), (1.1e6, OutOfRange(name))];
-    let cases: [Case<'_>; 16] = [
+    let cases: [Case<'_>; 17] = [
         (|c, x| c.identifier.lambda = x, rate("identifier.lambda"), &[1000.0, 1e-3]),
         (|c, x| c.identifier.q = x, rate("identifier.q"), &[1000.0, 1e-3]),
         (|c, x| c.observer.lambda = x, rate("observer.lambda"), &[1000.0, 1e-3]),
@@ -41,6 +41,11 @@ fn every_number() {
         (|c, x| c.disturbance_sd_limit = x, positive("disturbance_sd_limit"), &[1e-9, 1e9]),
         (|c, x| c.drag_prior_sd = x, settle("drag_prior_sd"), &[0.0, 1e6]),
         (|c, x| c.disturbance_prior_sd = x, settle("disturbance_prior_sd"), &[0.0, 1e6]),
+        (
+            |c, x| c.disturbance_sd = Some(x),
+            and("disturbance_sd", &[(0.9e-12, OutOfRange("disturbance_sd")), (1.1e6, OutOfRange("disturbance_sd"))]),
+            &[1e-12, 1e6],
+        ),
         (|c, x| c.parameter_settle = x, settle("parameter_settle"), &[0.0, 1e6]),
         (|c, x| c.state_settle = x, settle("state_settle"), &[0.0, 1e6]),
         (|c, x| c.position_limit = x, limit("position_limit"), &[1e-9, 1e6]),
@@ -90,6 +95,7 @@ fn defaults() {
         disturbance_sd_limit: 0.2,
         drag_prior_sd: 0.25,
         disturbance_prior_sd: 0.2,
+        disturbance_sd: None,
         parameter_settle: 0.0,
         state_settle: 0.0,
         position_limit: 1e5,

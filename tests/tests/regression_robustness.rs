@@ -86,6 +86,7 @@ fn config(period: f64, substeps: u32, tau: Option<f64>, nominal: Option<f64>, fa
         excitation: 1e-9,
         drag_sd_limit: 1e9,
         disturbance_sd_limit: 1e9,
+        disturbance_sd: tau.map(|_| if fast { 1e6 } else { 1e-12 }),
         position_limit: 1e6,
         input_limit: 1e6,
         ..DragConfig::new(period)

@@ -54,6 +54,13 @@ pub struct DragConfig<const N: usize> {
     pub drag_prior_sd: f64,
     /// The same of d (m/s²). Without excitation sd(k̂) comes to this over the known drift: 2 % in hover with the default of 0.2.
     pub disturbance_prior_sd: f64,
+    /// Standard deviation of the acceleration that comes and goes (m/s²), about what D and d explain, on any axis: gusts, actuators that
+    /// do not quite do what they are told. It counts in the standard deviations of k, D and d from the first row on, as an acceleration
+    /// that is correlated over 1/λ of the identifier: sd(d) is about g √(2/(λt)) after a time t, and that of k the same over the rms of
+    /// k f that the other terms do not explain. A controller answers gusts, and the velocity goes with them; what that pulls k and D by, at the
+    /// worst (3/8 g² over the square of that rms, relative to k; g²/λ over the velocity's), counts as well, and time does not make it less.
+    /// `None`: only what the residuals show of it counts, in which what is slow is missing. 1e-12..=1e6.
+    pub disturbance_sd: Option<f64>,
     /// ε of the parameter (s): k̂, and with it D and d, is not valid earlier.
     pub parameter_settle: f64,
     /// ε of the state (s): position and velocity are not handed out earlier.
@@ -83,6 +90,7 @@ impl<const N: usize> DragConfig<N> {
             disturbance_sd_limit: 0.2,
             drag_prior_sd: 0.25,
             disturbance_prior_sd: 0.2,
+            disturbance_sd: None,
             parameter_settle: 0.0,
             state_settle: 0.0,
             position_limit: 1e5,

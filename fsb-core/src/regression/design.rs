@@ -1,6 +1,7 @@
 //! A configuration validated and turned into constants.
 
 use super::config::{DragConfig, Identify};
+use super::gusts::Gusts;
 use super::velocity::VelocityDesign;
 use crate::checks::{Checks, Range, Rule, rounded_up};
 use crate::error::ConfigError;
@@ -32,6 +33,8 @@ pub(super) struct Common {
     pub row_every: u32,
     /// One over that.
     pub per_row_every: f32,
+    /// T²/12 over the square of the time between two rows: what the trapezoidal rule leaves out is that many squared steps.
+    pub trapezoid: f32,
     /// Items of work between two rows, and how many of them fall to one measurement.
     pub items_per_measurement: u32,
     /// 1 - μ over a row.
@@ -50,6 +53,7 @@ pub(super) struct Common {
     pub disturbance_variance: f32,
     pub drag_prior: f32,
     pub disturbance_prior: f32,
+    pub gusts: Gusts,
     /// T
     pub period: f32,
     /// ε in measurements
@@ -108,6 +112,11 @@ impl Common {
         let disturbance_variance = square(&Rule("disturbance_sd_limit", &Range::POSITIVE), config.disturbance_sd_limit);
         let drag_prior = square(&Rule("drag_prior_sd", &Range::MAGNITUDE), config.drag_prior_sd);
         let disturbance_prior = square(&Rule("disturbance_prior_sd", &Range::MAGNITUDE), config.disturbance_prior_sd);
+        let mut gusts = Gusts::default();
+        if let Some(sd) = config.disturbance_sd {
+            checks.number(&Rule("disturbance_sd", &Range::STANDARD_DEVIATION), sd);
+            gusts = Gusts::expected(sd, config.identifier.lambda, row, identifier.scale2());
+        }
         let parameter_settle = checks.samples("parameter_settle", config.parameter_settle, Wide::new(period));
         let state_settle = checks.samples("state_settle", config.state_settle, Wide::new(period));
         checks.number(&Rule("position_limit", &Range::LIMIT), config.position_limit);
@@ -125,6 +134,7 @@ impl Common {
             gains_every,
             row_every,
             per_row_every: 1.0 / row_every as f32,
+            trapezoid: 1.0 / (12.0 * row_every as f32 * row_every as f32),
             items_per_measurement: items(N as u32).div_ceil(row_every),
             forgetting: decayed(Wide::new(fading)).rounded(),
             colour: (0.79 / (config.identifier.lambda * row)) as f32,
@@ -138,6 +148,7 @@ impl Common {
             disturbance_variance,
             drag_prior,
             disturbance_prior,
+            gusts,
             period: period as f32,
             parameter_settle,
             state_settle,

@@ -15,6 +15,7 @@
 //! | `reduced` | the same when it is read: columns left out, k, D and d with their variances |
 //! | `turns` | who does what between two rows: columns that can be told, k, D and d |
 //! | `pooled` | k over all axes, and its status |
+//! | `gusts` | what accelerations that nobody told do to all of these |
 //! | `model` | prediction and observer with drag |
 //! | `seed` | position and velocity out of the identifier's own states |
 //! | `axis`, `clock` | the state of one axis; the state that depends on time alone |
@@ -24,6 +25,7 @@ mod axis;
 mod clock;
 mod config;
 mod design;
+mod gusts;
 mod model;
 mod output;
 mod pooled;

@@ -5,6 +5,9 @@ use super::design::Common;
 use super::reduced::Estimate;
 use crate::readout::{Parameter, ParameterStatus};
 
+/// The square of what rounding leaves of k, relative to it: 2^-22.
+const ROUNDING2: f32 = 5.7e-14;
+
 /// k̂ and its status.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pooled {
@@ -34,11 +37,19 @@ pub(super) fn read(axes: &mut [Axis], common: &Common) -> Estimate {
         axis.share = axis.weight(noisiest, common) * per_information;
         value += axis.share * axis.reduced.k();
     }
-    let mut variance = 0.0;
+    let (mut variance, mut answered) = (0.0, 0.0);
     for axis in axes.iter_mut().filter(|axis| axis.share > 0.0) {
         axis.weigh(value, common);
         variance += axis.share * axis.share * axis.k_variance(common);
+        if common.gusts.answered > 0.0 {
+            answered += axis.share * axis.answered(common);
+        }
     }
+    if answered > 0.0 {
+        answered /= value;
+        variance += answered * answered;
+    }
+    variance += ROUNDING2 * (value * value);
     Estimate { value, variance: if variance.is_finite() { variance } else { f32::MAX } }
 }
 

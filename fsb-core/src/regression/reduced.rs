@@ -5,9 +5,13 @@
 //! of one, a slower one fewer by 27/4 w²/(1 + w)³, w = (ω/λ)². Errors of the model are slow, too, so that the factor is
 //! not taken below a quarter: the standard deviation of d is two to four times too large for white noise alone.
 //!
+//! What the trapezoidal rule leaves out of ẑv, T²/12 ẑv'' (`velocity`), pulls D by as much of it as goes with ẑv, and k at the worst by
+//! all of D times it over what is left of ẑ0; steps from row to row tell ẑv ẑv''. Squares of both count.
+//!
 //! A term left out is not known to be zero. What it would put into the others is linear in it; so its variance, that of what it
 //! may be, is one of theirs.
 
+use super::gusts::Gusts;
 use super::triangle::NOTHING;
 
 /// A value and its variance.
@@ -43,10 +47,10 @@ impl Share {
         Self { energy, noise: if factor > Self::FLOOR { factor * energy } else { Self::FLOOR * energy } }
     }
 
-    /// Over the information, the variance of what this row of the triangle tells.
-    fn variance(&self, row_variance: f32) -> f32 {
+    /// Over the information, the variance of what this row of the triangle tells; `gusts` adds to that of a row, at any frequency.
+    fn variance(&self, row_variance: f32, gusts: f32) -> f32 {
         let factor = self.noise / self.energy;
-        row_variance * factor / self.energy
+        (row_variance * factor + gusts) / self.energy
     }
 }
 
@@ -70,6 +74,10 @@ impl Untold {
         self.drag += s * left.drag;
         self.disturbance += s * left.disturbance;
         left
+    }
+
+    fn over(self, first: f32) -> Self {
+        Self { drag: self.drag / first, disturbance: self.disturbance / first }
     }
 }
 
@@ -99,6 +107,12 @@ pub struct Reduced {
     in_u: Untold,
     in_v: Untold,
     in_f: Untold,
+    /// What gusts add to the variance of a row.
+    gusts: f32,
+    /// What goes with the velocity of them, Σ over the rows.
+    carried: f32,
+    /// What the rule by which ẑv is taken leaves out, times ẑv, Σ over the rows.
+    bent: f32,
 }
 
 impl Reduced {
@@ -121,6 +135,19 @@ impl Reduced {
         kept
     }
 
+    /// The same in gusts.
+    #[inline(always)]
+    pub(super) fn set_gusts(&mut self, gusts: &Gusts, constant: f32) {
+        self.gusts = gusts.row;
+        self.carried = gusts.carried * constant;
+    }
+
+    /// The same with what the rule by which ẑv is taken leaves out of it: T²/12 ẑv''.
+    #[inline(always)]
+    pub(super) fn set_rule(&mut self, bent: f32) {
+        self.bent = bent;
+    }
+
     /// The information on k: what of Σ ẑ0² the axis's own unknowns do not take.
     pub const fn information(&self) -> f32 {
         self.f.energy
@@ -133,7 +160,17 @@ impl Reduced {
 
     /// Variance of that, `row_variance` being that of a row at the peak of the spectrum of noise.
     pub fn k_variance(&self, row_variance: f32) -> f32 {
-        self.f.variance(row_variance)
+        self.f.variance(row_variance, self.gusts) + self.by_rule()
+    }
+
+    /// The square of what k is off by where all that the rule leaves out of D ẑv goes with ẑ0.
+    fn by_rule(&self) -> f32 {
+        if self.v.energy > 0.0 {
+            let bent = self.bent * (self.vy - self.vf * self.fy);
+            (bent / self.v.energy) * (bent / self.f.energy)
+        } else {
+            0.0
+        }
     }
 
     /// Variance of that by the terms left out.
@@ -154,10 +191,15 @@ impl Reduced {
 
     /// D for this k.
     pub fn drag(&self, k: Estimate, row_variance: f32) -> Estimate {
-        Estimate {
-            value: self.vy - self.vf * k.value,
-            variance: self.v.variance(row_variance) + self.vf * self.vf * k.variance,
-        }
+        let value = self.vy - self.vf * k.value;
+        Estimate { value, variance: self.own_drag_variance(value, row_variance) + self.vf * self.vf * k.variance }
+    }
+
+    /// The variance of D for a k that is known.
+    fn own_drag_variance(&self, drag: f32, row_variance: f32) -> f32 {
+        let per_energy = 1.0 / self.v.energy;
+        let (pulled, bent) = (self.carried * per_energy, self.bent * per_energy * drag);
+        self.v.variance(row_variance, self.gusts) + (pulled * pulled + bent * bent)
     }
 
     /// Variance of that by the terms left out.
@@ -168,10 +210,11 @@ impl Reduced {
     /// d for this k and this D, which is zero where it does not take part.
     pub fn disturbance(&self, k: Estimate, drag: f32, row_variance: f32) -> Estimate {
         let by_k = self.uf - self.uv * self.vf;
-        let by_drag = if self.v.energy > 0.0 { self.uv * self.uv * self.v.variance(row_variance) } else { 0.0 };
+        let by_drag =
+            if self.v.energy > 0.0 { self.uv * self.uv * self.own_drag_variance(drag, row_variance) } else { 0.0 };
         Estimate {
             value: self.uy - self.uv * drag - self.uf * k.value,
-            variance: self.u.variance(row_variance) + by_drag + by_k * by_k * k.variance,
+            variance: self.u.variance(row_variance, self.gusts) + by_drag + by_k * by_k * k.variance,
         }
     }
 
@@ -181,31 +224,43 @@ impl Reduced {
     }
 
     /// A row of the triangle whose own column is left out.
+    #[inline(always)]
     fn take_in(&mut self, row: Share, v: f32, f: f32, y: f32, untold: Untold) {
         let (mut weight, noise) = (row.energy, row.noise / row.energy);
-        let s = rotate(&mut self.v, v, &mut weight, noise);
+        let (s, alone) = rotate(&mut self.v, v, &mut weight, noise);
         let left_f = f - v * self.vf;
         let left_y = y - v * self.vy;
         self.vf += s * left_f;
         self.vy += s * left_y;
         let left_untold = self.in_v.turn(v, untold, s);
-        let s = rotate(&mut self.f, left_f, &mut weight, noise);
+        if alone {
+            (self.vf, self.vy, self.in_v) = (f / v, y / v, untold.over(v));
+        }
+        let (s, alone) = rotate(&mut self.f, left_f, &mut weight, noise);
         let left = left_y - left_f * self.fy;
         self.fy += s * left;
         self.in_f.turn(left_f, left_untold, s);
+        if alone {
+            (self.fy, self.in_f) = (left_y / left_f, left_untold.over(left_f));
+        }
         self.residual += weight * left * left;
     }
 }
 
-fn rotate(to: &mut Share, x: f32, weight: &mut f32, noise: f32) -> f32 {
+/// A row next to whose energy what was there before is less than this share of it stands alone: that may be anything, noise over rounding,
+/// and what it should be is not to be had by correcting it.
+const NEXT_TO_NOTHING: f32 = 6.1e-5;
+
+/// s, and whether the row stands alone.
+fn rotate(to: &mut Share, x: f32, weight: &mut f32, noise: f32) -> (f32, bool) {
     let energy = *weight * x * x;
     if energy < NOTHING {
-        return 0.0;
+        return (0.0, false);
     }
     let before = to.energy;
     to.energy += energy;
     to.noise += energy * noise;
     let s = *weight * x / to.energy;
     *weight *= before / to.energy;
-    s
+    (s, before < NEXT_TO_NOTHING * energy)
 }

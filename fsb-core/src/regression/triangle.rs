@@ -38,6 +38,10 @@ pub struct Triangle {
     vy: Accumulator,
     fy: Accumulator,
     residual: Accumulator,
+    /// The mean of what is added to that, the rows weighed by what they say of k.
+    telling: Accumulator,
+    /// One over the number of rows that say it: Σ x⁴/(Σ x²)² of what is left of ẑ0.
+    concentration: Accumulator,
     count: Accumulator,
     opening: Accumulator,
     /// What is left of ẑv and of ẑ0 by the columns before them, at the row before.
@@ -72,7 +76,11 @@ impl Triangle {
             add_step(&mut self.f_steps, &mut self.f_before, f, weight, forgetting);
             let s = take_in(&mut self.df, f, &mut weight, forgetting);
             let y = turn(&mut self.fy, f, y, s);
-            self.residual.add_folded(weight * y * y - forgetting * self.residual.value());
+            let left = weight * y * y;
+            self.residual.add_folded(left - forgetting * self.residual.value());
+            let share = s * f;
+            self.telling.add_folded(share * (left - self.telling.value()));
+            self.concentration.add_folded(share * (share - (2.0 - share) * self.concentration.value()));
             self.count.add_folded(1.0 - forgetting * self.count.value());
             self.opening.add_folded(u - forgetting * self.opening.value());
         }
@@ -82,6 +90,19 @@ impl Triangle {
     /// Σ ẑu, in the rows' scale.
     pub const fn opening(&self) -> f32 {
         self.opening.value()
+    }
+
+    /// What the residuals of `rows` would add up to if all were as large as those that say most of k, beyond what they do add up to; none where
+    /// it is no more than that again. As many of those as are `taken` by the unknowns leave nothing.
+    pub(super) fn uneven(&self, rows: f32, taken: f32) -> f32 {
+        let residual = self.residual.value();
+        let more = self.telling.value() * rows - residual;
+        let worth = 1.0 - taken * self.concentration.value();
+        match more > residual {
+            false => 0.0,
+            true if worth > 0.0 => more / worth,
+            true => f32::MAX,
+        }
     }
 
     /// Σ ẑu², in the square of the rows' scale.
@@ -105,6 +126,11 @@ impl Triangle {
             [0.0, 0.0, 1.0, self.fy.value()],
         ];
         Reduced::new([u, v, f], rows, self.residual.value(), disturbance, drag)
+    }
+
+    /// Σ of the squared steps from row to row of what ẑu leaves of ẑv.
+    pub(super) const fn v_steps(&self) -> f32 {
+        self.v_steps.value()
     }
 
     /// Whether ẑv has a part of its own, beyond what rounding leaves of a constant.

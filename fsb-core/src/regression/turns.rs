@@ -112,6 +112,8 @@ impl Axis {
         // Where nothing constant is known to pull, a constant force is one against d, which may be there without being told.
         let constant = columns.disturbance || (self.own.identify.disturbance && self.own.drift == 0.0);
         self.reduced = self.triangle.keep(constant, columns.drag, common.row_rate2);
+        self.reduced.set_gusts(&common.gusts, self.triangle.constant());
+        self.reduced.set_rule(common.trapezoid * self.triangle.v_steps());
     }
 
     /// The rows taken in, as far as the window was open: the noise of ẑ2 grows faster with it than its signals do.
@@ -122,11 +124,12 @@ impl Axis {
     /// The variance of the residual for this k.
     pub fn weigh(&mut self, k: f32, common: &Common) {
         // By terms left out this axis's own k may differ from that of all of them: no matter of noise.
-        self.row_variance = if self.untold(common) > 0.0 {
-            self.own_variance(common)
+        let (residual, taken) = if self.untold(common) > 0.0 {
+            (self.reduced.least_residual(), 1.0)
         } else {
-            self.variance(self.reduced.residual(k), self.share, common)
+            (self.reduced.residual(k), self.share)
         };
+        self.row_variance = self.variance(residual, taken, common);
     }
 
     /// The variance of the residual for the k that this axis alone says.
@@ -136,8 +139,12 @@ impl Axis {
 
     /// Rows are not independent, and those that the unknowns have taken do not count; `taken` is the part of k's.
     fn variance(&self, residual: f32, taken: f32, common: &Common) -> f32 {
-        let worth = self.rows(common) - common.colour * (self.columns.count() + taken);
-        let variance = common.colour * residual / worth * self.stretch2();
+        let rows = self.rows(common);
+        let taken = common.colour * (self.columns.count() + taken);
+        let worth = rows - taken;
+        // In motion the model may be wrong by more than hover shows, however long that was.
+        let uneven = if self.excited { self.triangle.uneven(rows, taken) } else { 0.0 };
+        let variance = common.colour * (residual + uneven) / worth * self.stretch2();
         if worth > 0.0 && variance >= 0.0 { variance } else { f32::MAX }
     }
 
@@ -164,7 +171,12 @@ impl Axis {
         0.25 * share * share / (self.reduced.k() * self.reduced.k())
     }
 
-    /// The variance of this axis's k.
+    /// What a controller that answers gusts pulls this axis's k by at the most, times k.
+    pub fn answered(&self, common: &Common) -> f32 {
+        common.gusts.answered * self.triangle.constant() / self.reduced.information()
+    }
+
+    /// The variance of this axis's k, but for what answers gusts, which all axes have alike.
     pub fn k_variance(&self, common: &Common) -> f32 {
         self.reduced.k_variance(self.row_variance) + self.untold(common) + self.pulled()
     }
@@ -173,7 +185,7 @@ impl Axis {
     /// and noise fed back leave the less, the more of it there is.
     pub fn weight(&self, row_variance: f32, common: &Common) -> f32 {
         let information = self.reduced.information();
-        let variance = row_variance / information;
+        let variance = (row_variance + common.gusts.row) / information;
         let bias = TRUST2 * self.untold(common) + self.pulled();
         let share = if bias > 0.0 { variance / (variance + bias) } else { 1.0 };
         // Without noise, too, something is left: it may be all there is.

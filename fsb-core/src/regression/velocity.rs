@@ -2,7 +2,8 @@
 //!
 //! Over the two intervals of the identity, with the triangular weight of its second difference, the drag contributes
 //! D (∫ y over the later interval - ∫ y over the earlier one); by the trapezoidal rule that is D T² (y\[n\] - y\[n-2\])/(2T).
-//! The rule errs by T²/12 y''': the square of (frequency · T)/3.5, 1e-3 of D for 5 rad/s at 50 Hz.
+//! The rule errs by T²/12 y''': the square of (frequency · T)/3.5, 1e-3 of D for 5 rad/s at 50 Hz, which is in the standard deviations
+//! of D and k (`reduced`).
 //!
 //! Writing z⁻¹ = (1 - Δ)/p with Δ = 1 - p z⁻¹ and F = c/Δ for a stage, c = 1 - p,
 //!

@@ -90,10 +90,58 @@ fn what_is_not_known_of_the_others() {
     close(both as f32, drag + drag_by_k * drag_by_k * 0.3, "D by both");
 }
 
+/// What the rule leaves out of ẑv, a share of its squared steps, pulls D by that share of D, and k by all of it at the worst.
+#[test]
+fn the_rule() {
+    let rows = (0..4000).map(|n| {
+        let t = RATE * f64::from(n);
+        let (v, f) = (0.7 * libm::sin(0.8 * t), libm::cos(1.7 * t));
+        [1.0, v, f, 0.9 * f + 0.4 * v]
+    });
+    let (triangle, squares) = both(rows, 0.0);
+    let mut reduced = triangle.keep(true, true, (RATE * RATE) as f32);
+    reduced.set_rule(0.3 * triangle.v_steps());
+    let energies = [squares.without(&[U]).product(V, V), squares.without(&[U, V]).product(F, F)];
+    // Of a sine the steps are its derivative's.
+    let share = 0.3 * (0.8 * RATE).powi(2);
+    let k = Estimate { value: 0.9, variance: 0.0 };
+    close(reduced.drag(k, 0.0).variance, (0.4 * share).powi(2), "D");
+    close(reduced.k_variance(0.0), (0.4 * share).powi(2) * energies[0] / energies[1], "k");
+}
+
 /// Without D in the model nothing of it is unknown.
 #[test]
 fn no_drag_no_doubt() {
     let (triangle, squares) = swings(0.5, 1.2, 2.0);
     let reduced = triangle.keep(true, false, (RATE * RATE) as f32);
     close(reduced.disturbance(NOTHING, 0.0, 0.7).variance, 0.25 * 0.7 / squares.product(U, U), "d");
+}
+
+/// Rows that say nothing of k, with small residuals, and then ones that do, with large ones: those count.
+#[test]
+fn residuals_of_the_rows_that_tell() {
+    let (still, moving) = (3000_u16, 600_u16);
+    let rows = |from: u16| {
+        let mut noise = 0.37_f64;
+        (from..still + moving).map(move |n| {
+            noise = (noise * 97.3 + 0.123).fract();
+            let (f, size) = if n < still { (0.0, 0.1) } else { (libm::sin(0.141 * f64::from(n)), 2.0) };
+            [1.0, 0.0, f, 0.8 * f + size * libm::sqrt(12.0) * (noise - 0.5)]
+        })
+    };
+    let (triangle, _) = both(rows(0), 0.0);
+    let of = |rows: f64| f64::from(triangle.uneven(rows as f32, 0.0));
+    let (all, sum) = (f64::from(still + moving), f64::from(still) * 0.01 + f64::from(moving) * 4.0);
+    // Twice as many rows would have twice the first part.
+    let telling = (of(2.0 * all) - of(all)) / all;
+    assert!((telling / 4.0 - 1.0).abs() < 0.1, "{telling}");
+    assert!((of(all) / (4.0 * all - sum) - 1.0).abs() < 0.1, "{}", of(all));
+    // Σ x⁴/(Σ x²)² of a sine is 3/2 of one over its length.
+    let taken = 100.0;
+    let worth = of(all) / f64::from(triangle.uneven(all as f32, taken));
+    assert!((worth / (1.0 - 150.0 / f64::from(moving)) - 1.0).abs() < 0.02, "{worth}");
+    assert_eq!(triangle.uneven(all as f32, 500.0), f32::MAX);
+    // All alike: nothing.
+    let (triangle, _) = both(rows(still), 0.0);
+    assert_eq!(triangle.uneven(f32::from(moving), 0.0), 0.0);
 }

@@ -150,3 +150,19 @@ fn what_is_left_out() {
         }
     }
 }
+
+/// A force that is constant but for rounding, and noise: what the first row of the triangle takes is all of it, and k what the mean says.
+#[test]
+fn next_to_parallel() {
+    let mut noise = 0.37_f64;
+    let rows = (0..2000).map(|n| {
+        // Any irregular numbers.
+        noise = (noise * 97.3 + 0.123).fract();
+        let f = 3.0 * (1.0 + 2e-7 * f64::from(n % 3));
+        [1.0, 0.0, f, 0.7 * f + 1e-2 * (noise - 0.5)]
+    });
+    let (triangle, squares) = both(rows, 0.0);
+    let all_but_k = squares.product(2, 3) / squares.product(2, 2);
+    let found = f64::from(triangle.keep(false, false, 0.01).k());
+    assert!((found / all_but_k - 1.0).abs() < 3e-7, "{found} {all_but_k}");
+}
