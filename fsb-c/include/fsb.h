@@ -192,7 +192,7 @@
 #define FSB_PARAMETER_HELD 9
 
 // sizeof(fsb_vehicle_t).
-#define FSB_VEHICLE_SIZE 10560
+#define FSB_VEHICLE_SIZE 10624
 
 // Alignment of fsb_vehicle_t.
 #define FSB_VEHICLE_ALIGNMENT 8
@@ -655,7 +655,7 @@ typedef struct fsb_measured_t {
 // attitudes and from what its actuators did. Storage of the caller, static or a member: too large for most stacks.
 typedef struct fsb_vehicle_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[1320];
+  uint64_t opaque[1328];
 } fsb_vehicle_t;
 
 // Force and torque on the body about its centre of mass, along the body's axes.
@@ -688,7 +688,8 @@ typedef struct fsb_vehicle_state_t {
 typedef struct fsb_identified_t {
   // Mass or moment of inertia.
   float value;
-  // Its variance; the square root of it is the standard deviation.
+  // Its variance; the square root of it is the standard deviation. For a while after a change (`mass_changed`, `inertia_changed`) it has the
+  // distance from the value before in it: a torque or force that nobody told may have been taken for the change.
   float variance;
   // Whether it may be used, and why not: usable is FSB_PARAMETER_VALID or more. Its k is 1/value: FSB_PARAMETER_BELOW is
   // a mass that is too large.

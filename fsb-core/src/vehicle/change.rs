@@ -22,6 +22,7 @@
 //! begins anew, as after a start.
 
 use super::config::ChangeRule;
+use super::doubt::Doubt;
 use super::residual::Residuals;
 use super::statistic::{Limits, Statistic, Terms};
 use crate::error::{ConfigError, finite, positive};
@@ -39,7 +40,7 @@ struct Response {
 /// For three axes, with one parameter or one each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Detector {
-    relative: f32,
+    pub relative: f32,
     sigmas2: f32,
     /// T²
     period2: f32,
@@ -67,6 +68,7 @@ pub(super) struct Detector {
     /// At any time of this identification.
     was_known: [bool; 3],
     residuals: Residuals,
+    pub doubt: Doubt,
 }
 
 impl Detector {
@@ -124,6 +126,7 @@ impl Detector {
             known: [false; 3],
             was_known: [false; 3],
             residuals: Residuals::new(relative, sigmas2, step, pooled),
+            doubt: Doubt::new(count(libm::fmax(rule.hold_off, Doubt::HALF))),
         })
     }
 
@@ -165,6 +168,7 @@ impl Detector {
         }
         self.instants = self.instants.saturating_add(1);
         self.forget_guesses(known);
+        self.doubt.go_on(known);
         let terms = self.terms(view);
         let share = 1.0 / self.instants as f32;
         for (usual, term) in self.usual.iter_mut().zip(&terms) {
@@ -256,6 +260,7 @@ impl Stored for Detector {
         self.known.pass(archive);
         self.was_known.pass(archive);
         self.residuals.pass(archive);
+        self.doubt.pass(archive);
     }
 }
 
@@ -265,7 +270,8 @@ impl Detector {
 
     /// What tells detectors apart.
     pub fn add_to(&self, hash: &mut Fingerprint) {
-        for number in [self.relative, self.sigmas2, self.period2, self.innovation_gain, self.disturbance] {
+        let [gain, half] = [self.innovation_gain, self.doubt.half];
+        for number in [self.relative, self.sigmas2, self.period2, gain, self.disturbance, half] {
             hash.add_number(number);
         }
         for count in [self.hold_off, self.enough] {
@@ -279,6 +285,7 @@ impl Detector {
         let is_square = |x: f32| (0.0..=largest).contains(&x);
         self.responses.iter().flat_map(|response| [response.phi, response.e, response.w]).all(|x| x.abs() <= Self::MOST)
             && self.residuals.is_sound()
+            && self.doubt.is_sound()
             && self.usual.iter().all(|&x| is_square(x))
             && self.statistics.iter().flat_map(|statistic| &statistic.sums).all(|sum| {
                 sum.product.abs() <= largest

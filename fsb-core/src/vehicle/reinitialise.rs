@@ -70,6 +70,7 @@ impl<const D: usize> VehicleEstimator<D> {
             changed |= detector.observe_residuals(&self.translation.identifier_view(), &known);
         }
         if changed {
+            detector.doubt.begin();
             self.identify_anew(Group::Translation);
         }
         changed
@@ -84,6 +85,7 @@ impl<const D: usize> VehicleEstimator<D> {
             changed |= detector.observe_residuals(&self.rotation.identifier_view(), &known);
         }
         if changed {
+            detector.doubt.begin();
             self.identify_anew(Group::Rotation);
             self.rotation.suspect_disturbance();
         }
