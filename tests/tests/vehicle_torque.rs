@@ -53,6 +53,6 @@ fn a_torque_that_nobody_told() {
         [RUNS / 2, RUNS * 9 / 10, RUNS - 1].map(|n| of[n])
     });
     println!("seeds 0 to {RUNS}: off by {relative:.2?}, {sds:.1?} sd in half, in 90 %, in all of them");
-    assert!(relative[1] < 0.6 && relative[2] < 1.3 && sds[1] < 15.0 && sds[2] < 40.0, "{relative:?} {sds:?}");
+    assert!(relative[1] < 0.6 && relative[2] < 1.3 && sds[1] < 5.0 && sds[2] < 7.0, "{relative:?} {sds:?}");
     assert!(flights.iter().all(|(_, valid)| *valid));
 }

@@ -89,7 +89,8 @@ pub struct fsb_vehicle_state_t {
 pub struct fsb_identified_t {
     /// Mass or moment of inertia.
     pub value: f32,
-    /// Its variance; the square root of it is the standard deviation.
+    /// Its variance; the square root of it is the standard deviation. For a while after a change (`mass_changed`, `inertia_changed`) it has the
+    /// distance from the value before in it: a torque or force that nobody told may have been taken for the change.
     pub variance: f32,
     /// Whether it may be used, and why not: usable is FSB_PARAMETER_VALID or more. Its k is 1/value: FSB_PARAMETER_BELOW is
     /// a mass that is too large.

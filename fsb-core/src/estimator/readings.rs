@@ -112,6 +112,15 @@ impl<const N: usize, const P: usize> Estimator<N, P> {
         self.frame.progress.identifier.blocks
     }
 
+    /// Whether all axes have taken the step of [`identifier_blocks`](Self::identifier_blocks): where blocks are of several samples each ends its own
+    /// a sample after the one before, and the unit chain is a step ahead of those whose block has not ended.
+    pub(crate) fn identifier_rests(&self) -> bool {
+        let Frame { common, progress, .. } = &self.frame;
+        let last = (N as u32).min(common.block_length).saturating_sub(1);
+        let between = last..=u32::from(common.schedule.weights_at);
+        common.block_length == 1 || between.contains(&progress.identifier.position)
+    }
+
     /// The identifier's last step.
     pub(crate) fn identifier_view(&self) -> IdentifierView<N> {
         let Frame { common, progress, axes } = &self.frame;

@@ -23,6 +23,7 @@
 //! begins anew, as after a start.
 
 use super::config::ChangeRule;
+use super::doubt::Doubt;
 use super::long_mean::LongMeans;
 use super::residual::Residuals;
 use super::statistic::{Limits, Statistic, Terms};
@@ -41,7 +42,7 @@ struct Response {
 /// For three axes, with one parameter or one each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Detector {
-    relative: f32,
+    pub relative: f32,
     sigmas2: f32,
     /// T²
     period2: f32,
@@ -73,6 +74,7 @@ pub(super) struct Detector {
     squares: LongMeans,
     /// The share of one instant in them.
     share: f32,
+    pub doubt: Doubt,
 }
 
 impl Detector {
@@ -135,6 +137,7 @@ impl Detector {
             squares: LongMeans::default(),
             // Over 100/λ, and no more than what f32 can add up.
             share: libm::fmax(0.01 * lambda * period, 1e-6) as f32,
+            doubt: Doubt::new(count(libm::fmax(rule.hold_off, Doubt::HALF))),
         })
     }
 
@@ -179,6 +182,7 @@ impl Detector {
         if self.instants > self.hold_off {
             self.squares.add_squares(&view.innovations, self.share);
         }
+        self.doubt.go_on(known);
         let terms = self.terms(view);
         let share = 1.0 / self.instants as f32;
         for (usual, term) in self.usual.iter_mut().zip(&terms) {
@@ -274,6 +278,7 @@ impl Stored for Detector {
         self.was_known.pass(archive);
         self.residuals.pass(archive);
         self.squares.pass(archive);
+        self.doubt.pass(archive);
     }
 }
 
@@ -283,7 +288,8 @@ impl Detector {
 
     /// What tells detectors apart.
     pub fn add_to(&self, hash: &mut Fingerprint) {
-        for number in [self.relative, self.sigmas2, self.period2, self.innovation_gain, self.disturbance] {
+        let [gain, half] = [self.innovation_gain, self.doubt.half];
+        for number in [self.relative, self.sigmas2, self.period2, gain, self.disturbance, half] {
             hash.add_number(number);
         }
         for count in [self.hold_off, self.enough] {
@@ -298,6 +304,7 @@ impl Detector {
         self.responses.iter().flat_map(|response| [response.phi, response.e, response.w]).all(|x| x.abs() <= Self::MOST)
             && self.residuals.is_sound()
             && self.squares.are_sound(largest)
+            && self.doubt.is_sound()
             && self.usual.iter().all(|&x| is_square(x))
             && self.statistics.iter().flat_map(|statistic| &statistic.sums).all(|sum| {
                 sum.product.abs() <= largest

@@ -83,6 +83,10 @@ pub struct GroupConfig {
 /// When a change of a parameter k (1/m, 1/I) is taken as such, and its group identified anew; so is one with a parameter that was
 /// known and is contradicted. In wind, or with actuators that do not quite do what they are told, give [`GroupConfig::disturbance_sd`]
 /// as well: without it what they do is taken for a change, again and again.
+///
+/// For a while after a change a torque or force that nobody told may have been taken for it: the standard deviation has the distance from the
+/// value before in it, times h/(h + t), h being `hold_off` and 1 s at least and t the time for which the new value has been known. It ends nothing: when
+/// the new value is valid, and what is predicted with, do not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ChangeRule {

@@ -40,6 +40,7 @@
 //! | `retroactive` | the same with moments of inertia that were not known at the time |
 //! | `change`, `statistic` | whether a parameter has changed, by the innovations |
 //! | `residual` | the same by what is left in the identifier's band |
+//! | `doubt` | what a change that was told leaves open |
 //! | `reinitialise` | parameters identified anew |
 //! | `replaced` | forces and torques that were rejected |
 //! | `delay` | inputs waiting for a measurement that comes late |
@@ -54,6 +55,7 @@ mod change;
 mod config;
 mod delay;
 mod design;
+mod doubt;
 mod estimator;
 mod gyroscopic;
 mod long_mean;

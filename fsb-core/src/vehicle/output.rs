@@ -6,7 +6,7 @@
 pub struct Identified {
     /// 1/k̂.
     pub value: f32,
-    /// Its variance, var(k̂)/k̂⁴.
+    /// Its variance, var(k̂)/k̂⁴, and what a change leaves open ([`super::ChangeRule`]).
     pub variance: f32,
 }
 

@@ -1,8 +1,10 @@
 //! Parameters and counters handed out.
 
+use super::change::Detector;
 use super::estimator::VehicleEstimator;
 use super::output::{Identified, VehicleCounters, VehicleModel};
 use super::triple::all;
+use crate::estimator::Estimator;
 use crate::guard::Guarded;
 use crate::readout::{Parameter, ParameterStatus};
 
@@ -14,13 +16,13 @@ impl<const D: usize> VehicleEstimator<D> {
 
     /// m (kg), where it is valid or held.
     pub fn mass(&self) -> Option<Identified> {
-        let [k] = self.translation.parameters();
-        k.map(inverse)
+        let [k] = handed_out(&self.translation, self.translation_change.as_ref());
+        k
     }
 
     /// I_x, I_y, I_z (kg m²), where they are valid or held.
     pub fn inertia(&self) -> [Option<Identified>; 3] {
-        self.rotation.parameters().map(|k| k.map(inverse))
+        handed_out(&self.rotation, self.rotation_change.as_ref())
     }
 
     /// Why the mass is valid or not.
@@ -57,6 +59,19 @@ impl<const D: usize> VehicleEstimator<D> {
     pub const fn counters(&self) -> VehicleCounters {
         self.counters
     }
+}
+
+/// The parameters that are valid or held, with what a change leaves open.
+fn handed_out<const P: usize>(of: &Estimator<3, P>, detector: Option<&Detector>) -> [Option<Identified>; P] {
+    let mut parameters = of.parameters();
+    if let Some(Detector { doubt, relative, .. }) = detector {
+        let newest = of.rough_parameters().into_iter().zip(of.parameter_status());
+        for (index, (k, (newest, status))) in parameters.iter_mut().zip(newest).enumerate() {
+            let newest = (status == ParameterStatus::Held).then_some(newest);
+            *k = k.map(|k| doubt.widen(index, k, newest, *relative));
+        }
+    }
+    parameters.map(|k| k.map(inverse))
 }
 
 /// 1/k with var(k)/k⁴.

@@ -66,10 +66,11 @@ impl<const D: usize> VehicleEstimator<D> {
         let known = [k, None, None];
         let view = self.translation.innovation_view();
         let mut changed = detector.observe(&view, &known, &[contradicted, false, false]);
-        if detector.is_behind(self.translation.identifier_blocks()) {
+        if detector.is_behind(self.translation.identifier_blocks()) && self.translation.identifier_rests() {
             changed |= detector.observe_residuals(&self.translation.identifier_view(), &known);
         }
         if changed {
+            detector.doubt.begin();
             self.identify_anew(Group::Translation);
         }
         changed
@@ -80,10 +81,11 @@ impl<const D: usize> VehicleEstimator<D> {
         let Some(detector) = &mut self.rotation_change else { return false };
         let (known, contradicted) = (identified(&self.rotation), contradicted(&self.rotation));
         let mut changed = detector.observe(&self.rotation.innovation_view(), &known, &contradicted);
-        if detector.is_behind(self.rotation.identifier_blocks()) {
+        if detector.is_behind(self.rotation.identifier_blocks()) && self.rotation.identifier_rests() {
             changed |= detector.observe_residuals(&self.rotation.identifier_view(), &known);
         }
         if changed {
+            detector.doubt.begin();
             self.identify_anew(Group::Rotation);
             self.rotation.suspect_disturbance();
         }

@@ -40,6 +40,9 @@ impl<const D: usize> VehicleEstimator<D> {
         if let Some(detector) = &mut self.translation_change {
             detector.restart();
         }
+        for detector in [&mut self.translation_change, &mut self.rotation_change].into_iter().flatten() {
+            detector.doubt.forget();
+        }
         self.angles = BodyAngles::default();
         self.wrenches.clear();
         self.forces.clear();
