@@ -115,3 +115,13 @@ fn what_happened_early() {
         assert!((0.6..1.5).contains(&end[0]) && end[1] < 2.5, "{end:?}");
     }
 }
+
+/// In large blocks, up to a third of 1/λ, one block alone moves k by all of a push: from that very moment on its standard deviation knows.
+#[test]
+fn a_push_in_one_block() {
+    for push in [0.6, -0.1] {
+        let [worst, end] = spread(&format!("push {push} m/s, blocks of 9"), &Disturbed { push, block: 9, ..QUIET });
+        assert!(worst[1] < 5.0 && worst[2] < 8.0, "{worst:?}");
+        assert!((0.5..1.5).contains(&end[0]) && end[1] < 2.5, "{end:?}");
+    }
+}

@@ -248,6 +248,10 @@ impl ParameterState {
             let before = 1.0 - step.added * per_information;
             let weight = step.weight * per_information;
             self.disturbance = known(before * before * self.disturbance + weight * weight * step.disturbance);
+            // The quotient is handed out with this step in it before the variance is read.
+            if step.disturbance > 0.0 {
+                self.add_doubt(self.newest().value);
+            }
         }
         self.skip_coarse_step();
     }
