@@ -177,7 +177,7 @@ impl Axis {
                 residual * residual * to_mean,
                 z2 * z2 * to_mean,
                 down * z0,
-                &covariance.remembers,
+                (covariance.noise_memory, covariance.noise_forgetting),
             );
         }
         let mut stretch = 1.0;

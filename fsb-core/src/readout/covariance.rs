@@ -12,7 +12,7 @@
 //! The recursion runs every D-th identifier step, where λ D T is still small: averaging the noise over D samples and
 //! weighing the mean D-fold is the same filter at a coarser step (design, section 11).
 
-use super::noise_level::Remembers;
+use super::noise_level::NoiseLevel;
 use crate::identifier::{Coefficients, IdentifierDesign};
 use crate::snapshot::stored;
 use crate::tuning::{Tuning, decayed};
@@ -40,8 +40,8 @@ pub(crate) struct CovarianceDesign {
     mu: f32,
     /// 1 - μ² over D steps
     pub noise_forgetting: f32,
-    /// What of the noise level is remembered.
-    pub remembers: Remembers,
+    /// Values of the noise level that are remembered.
+    pub noise_memory: u16,
     /// Steps that the residual of an acceleration without memory is spread over, D times: the noise bandwidth of the three
     /// stages, ∫ |F|⁶ dω/2π = 3 λ/16, times T, into D.
     pub correlation: f32,
@@ -64,7 +64,7 @@ impl CovarianceDesign {
         per_stride: 0.0,
         mu: 0.0,
         noise_forgetting: 0.0,
-        remembers: Remembers::BLANK,
+        noise_memory: 0,
         correlation: 0.0,
         forgetting: 0.0,
     };
@@ -91,7 +91,7 @@ impl CovarianceDesign {
         let forgetting = decayed(faded).rounded();
         self.mu = 1.0 - forgetting;
         self.noise_forgetting = forgetting * (2.0 - forgetting);
-        self.remembers = Remembers::new(faded.rounded(), forgetting);
+        self.noise_memory = NoiseLevel::memory(faded.rounded());
         self.correlation = self.stride * 16.0 / (3.0 * lambda * period.rounded());
         self.forgetting = decayed(faded.over(Wide::of(sharing))).rounded();
     }

@@ -55,6 +55,8 @@ impl NoiseLevel {
     const MOST: f32 = 1e8;
     /// A value that weighs less than this share of all moves their mean by less than it is rounded to.
     const SLIGHT: f32 = 1.0 / 16_777_216.0;
+    /// A mean over more than 1/`LEAST` values of the same weight would move by less than f32 has digits for.
+    const LEAST: f32 = 1.0 / 1_048_576.0;
     /// A mean square below this is none; well above the subnormal numbers.
     const NOTHING: f32 = 1e-30;
 
@@ -71,21 +73,29 @@ impl NoiseLevel {
         absent: 0,
     };
 
+    /// The memory of the level of the moment, for a read-out that forgets by e^(-`fading`) from value to value.
+    pub(crate) fn memory(fading: f32) -> u16 {
+        // Infinite where nothing is forgotten.
+        (1.0 / fading).clamp(16.0, 256.0) as u32 as u16
+    }
+
     /// A level known beforehand; it counts as much as the least number of values that is trusted.
     pub(crate) const fn expected(variance: f32) -> Self {
         Self { fine: variance, slow: variance, whole: [variance; 2], values: Self::ENOUGH, ..Self::UNKNOWN }
     }
 
     /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2. `weight` is the ω ẑ0, positive,
-    /// that went into the sums with them.
-    pub(crate) fn add(&mut self, fine: f32, slow: f32, signal: f32, weight: f32, remembers: &Remembers) {
-        if self.values < remembers.values {
+    /// that went into the sums with them. `remembers`: how many values the level of the moment is a mean of, and by what share their part in the
+    /// variance of k̂ fades from value to value.
+    pub(crate) fn add(&mut self, fine: f32, slow: f32, signal: f32, weight: f32, remembers: (u16, f32)) {
+        let (memory, forgetting) = remembers;
+        if self.values < memory {
             self.values += 1;
         }
         let gain = 1.0 / f32::from(self.values);
         self.fine += gain * (fine - self.fine);
         self.slow += gain * (slow - self.slow);
-        self.weight += weight - remembers.forgetting * self.weight;
+        self.weight += weight - if forgetting > Self::LEAST { forgetting } else { Self::LEAST } * self.weight;
         if weight > Self::SLIGHT * self.weight {
             // At first a few values carry most of the weight, and are no level: these means move no faster than those of late.
             let share = weight / self.weight;
@@ -178,33 +188,6 @@ impl NoiseLevel {
     /// σ² as it shows from sample to sample: measurement noise alone.
     pub const fn measurement_variance(&self) -> f32 {
         self.fine
-    }
-}
-
-/// What a read-out remembers, from value to value.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(crate) struct Remembers {
-    /// How many values the level of the moment is a mean of.
-    pub values: u16,
-    /// The share of the weight of all values so far that is forgotten with each one.
-    pub forgetting: f32,
-}
-
-impl Remembers {
-    /// Nothing.
-    pub const BLANK: Self = Self { values: 0, forgetting: 0.0 };
-
-    /// The longest memory of the level of the moment, in values.
-    const MOST: f32 = 256.0;
-    /// A mean over more than 1/`LEAST` values of the same weight would move by less than f32 has digits for.
-    const LEAST: f32 = 1.0 / 1_048_576.0;
-
-    /// Of a read-out that forgets by e^(-`fading`), that is by the share of `forgetting`, from value to value.
-    pub fn new(fading: f32, forgetting: f32) -> Self {
-        // Infinite where nothing is forgotten.
-        let values = (1.0 / fading).clamp(16.0, Self::MOST) as u32 as u16;
-        Self { values, forgetting: if forgetting > Self::LEAST { forgetting } else { Self::LEAST } }
     }
 }
 

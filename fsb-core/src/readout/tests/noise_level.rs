@@ -1,26 +1,20 @@
 //! The running means of the noise's variance.
 
 use super::super::NoiseLevel;
-use super::super::noise_level::Remembers;
-
-/// Of so many values, and whatever it weighs.
-fn over(values: u16) -> Remembers {
-    Remembers { values, ..FOREVER }
-}
 
 /// Nothing is forgotten.
-const FOREVER: Remembers = Remembers { values: 256, forgetting: 0.0 };
+const FOREVER: (u16, f32) = (256, 0.0);
 
 /// A mean of all values up to the memory, from then on a fading one over so many.
 #[test]
 fn means_over_the_memory() {
     let mut level = NoiseLevel::default();
     for n in 1..=4_u8 {
-        level.add(f32::from(n), 2.0 * f32::from(n), 0.0, 1.0, &over(4));
+        level.add(f32::from(n), 2.0 * f32::from(n), 0.0, 1.0, (4, 0.0));
     }
     // (1 + 2 + 3 + 4)/4, then a quarter of the way to 10.
     assert_eq!(level.variances(), [2.5, 5.0]);
-    level.add(10.0, 20.0, 0.0, 1.0, &over(4));
+    level.add(10.0, 20.0, 0.0, 1.0, (4, 0.0));
     assert_eq!(level.variances(), [4.375, 8.75]);
 }
 
@@ -40,7 +34,7 @@ fn noise_that_was() {
         let mut level = NoiseLevel::default();
         for n in 0..1000 {
             let (value, weight) = if n < 300 { (9.0, 1.0) } else { (1.0, quiet) };
-            level.add(1.0, value, 0.0, weight, &Remembers { forgetting, ..FOREVER });
+            level.add(1.0, value, 0.0, weight, (256, forgetting));
             assert!(n >= 300 || level.variance() == 9.0);
         }
         let variance = f64::from(level.variance());
@@ -54,9 +48,9 @@ fn noise_that_was() {
 fn a_heavy_value() {
     let mut level = NoiseLevel::default();
     for n in 0..100 {
-        level.add(1.0, 1.0, 0.0, 1.5_f32.powi(n), &FOREVER);
+        level.add(1.0, 1.0, 0.0, 1.5_f32.powi(n), FOREVER);
     }
-    level.add(10.0, 20.0, 0.0, 1e30, &FOREVER);
+    level.add(10.0, 20.0, 0.0, 1e30, FOREVER);
     assert!((level.variance() - (1.0 + 19.0 / 101.0)).abs() < 1e-4, "{level:?}");
     assert!((level.measured() - (1.0 + 9.0 / 101.0)).abs() < 1e-4, "{level:?}");
 }
@@ -67,7 +61,7 @@ fn measurement_noise_that_was() {
     let mut level = NoiseLevel::default();
     for n in 0..2000 {
         let (value, weight) = if n < 300 { (4.0, 1.0) } else { (0.01, 1e-6) };
-        level.add(value, 0.0, 0.0, weight, &FOREVER);
+        level.add(value, 0.0, 0.0, weight, FOREVER);
     }
     let [fine, _] = level.variances();
     assert!((level.measured() / 4.0 - 1.0).abs() < 1e-3 && level.variance() == level.measured(), "{level:?}");
@@ -77,17 +71,17 @@ fn measurement_noise_that_was() {
 /// Weights over all that f32 can tell apart, for a long time: the mean stays one, and no number becomes too small.
 #[test]
 fn weights_of_any_size() {
-    let remembers = Remembers::new(0.0, 0.0);
+    let remembers = (NoiseLevel::memory(0.0), 0.0);
     let mut level = NoiseLevel::default();
     for n in 0..3_000_000_u32 {
         let weight = [1e-30, 1e-12, 1.0, 1e24][(n / 1000 % 4) as usize];
-        level.add(2.0, if n % 2 == 0 { 1.0 } else { 5.0 }, 0.0, weight, &remembers);
+        level.add(2.0, if n % 2 == 0 { 1.0 } else { 5.0 }, 0.0, weight, remembers);
         assert!(n < 100 || (2.9..3.1).contains(&level.variance()), "{n}: {level:?}");
     }
     // One size only: means over a million values neither stall nor drift.
     let mut level = NoiseLevel::expected(1.0);
     for n in 0..4_000_000_u32 {
-        level.add(0.0, if n % 10 == 0 { 20.0 } else { 0.0 }, 0.0, 1.0, &remembers);
+        level.add(0.0, if n % 10 == 0 { 20.0 } else { 0.0 }, 0.0, 1.0, remembers);
     }
     assert!((1.9..2.1).contains(&level.variance()), "{level:?}");
 }
@@ -99,7 +93,7 @@ fn the_larger_of_two() {
         let mut level = NoiseLevel::default();
         for n in 0..20 {
             assert_eq!(level.is_known(), n >= 8);
-            level.add(fine, slow, 0.0, 1.0, &FOREVER);
+            level.add(fine, slow, 0.0, 1.0, FOREVER);
         }
         assert_eq!((level.variance(), level.measurement_variance()), (fine.max(slow), fine));
     }
@@ -109,19 +103,19 @@ fn the_larger_of_two() {
 #[test]
 fn the_misfit() {
     let mut level = NoiseLevel::default();
-    level.add(1.0, 25.0, 7.0, 1.0, &FOREVER);
+    level.add(1.0, 25.0, 7.0, 1.0, FOREVER);
     assert_eq!(level.misfit(0.0), (0.0, 7.0), "that may still be noise");
-    level.add(1.0, 35.0, 9.0, 1.0, &FOREVER);
+    level.add(1.0, 35.0, 9.0, 1.0, FOREVER);
     assert_eq!(level.misfit(0.0), (30.0, 8.0));
     // The 32 values: 30 more of 30 and 8, then one of 94 and 72 moves the means by a 32nd of the distance.
     for _ in 0..30 {
-        level.add(1.0, 30.0, 8.0, 1.0, &FOREVER);
+        level.add(1.0, 30.0, 8.0, 1.0, FOREVER);
     }
-    level.add(1.0, 94.0, 72.0, 1.0, &FOREVER);
+    level.add(1.0, 94.0, 72.0, 1.0, FOREVER);
     let (unexplained, signal) = level.misfit(0.0);
     assert!((unexplained - 32.0).abs() < 1e-4 && (signal - 10.0).abs() < 1e-4, "{unexplained}, {signal}");
     for _ in 0..1000 {
-        level.add(1.0, 26.0, 1.0, 1.0, &FOREVER);
+        level.add(1.0, 26.0, 1.0, 1.0, FOREVER);
     }
     let (unexplained, signal) = level.misfit(0.0);
     assert!((unexplained - 26.0).abs() < 1e-3 && (signal - 1.0).abs() < 1e-3, "{unexplained}, {signal}");
