@@ -43,7 +43,7 @@
 
 
 // sizeof(fsb_axis_t).
-#define FSB_AXIS_SIZE 816
+#define FSB_AXIS_SIZE 840
 
 // Alignment of fsb_axis_t.
 #define FSB_AXIS_ALIGNMENT 8
@@ -65,7 +65,7 @@
 #define FSB_LEARNING_CONTACT 2
 
 // sizeof(fsb_rotation_t).
-#define FSB_ROTATION_SIZE 1376
+#define FSB_ROTATION_SIZE 1424
 
 // Alignment of fsb_rotation_t.
 #define FSB_ROTATION_ALIGNMENT 8
@@ -132,7 +132,7 @@
 #define FSB_TRACKING_ALIGNMENT 8
 
 // sizeof(fsb_translation_t).
-#define FSB_TRANSLATION_SIZE 1192
+#define FSB_TRANSLATION_SIZE 1232
 
 // Alignment of fsb_translation_t.
 #define FSB_TRANSLATION_ALIGNMENT 8
@@ -328,7 +328,7 @@ typedef int32_t fsb_status_t;
 // One axis: y'' = k f + drift. Storage of the caller; what is in it is the library's.
 typedef struct fsb_axis_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[102];
+  uint64_t opaque[105];
 } fsb_axis_t;
 
 // Whether a position and a velocity may be used, and why not. Usable is whatever is FSB_STATE_NOMINAL or more.
@@ -448,7 +448,7 @@ typedef struct fsb_rotation_config_t {
 // caller; what is in it is the library's.
 typedef struct fsb_rotation_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[172];
+  uint64_t opaque[178];
 } fsb_rotation_t;
 
 // Gains and limits of an axis's controller. Start from fsb_tracking_config_default.
@@ -531,7 +531,7 @@ typedef struct fsb_translation_config_t {
 // is in it is the library's.
 typedef struct fsb_translation_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[149];
+  uint64_t opaque[154];
 } fsb_translation_t;
 
 // A parameter in the units of an engineer. All NaN where the parameter is not valid.

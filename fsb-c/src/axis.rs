@@ -14,7 +14,7 @@ use crate::status::fsb_status_t;
 use crate::values::{fsb_counters_t, fsb_diagnostics_t, fsb_parameter_t, fsb_state_sd_t, fsb_state_t};
 
 /// sizeof(fsb_axis_t).
-pub const FSB_AXIS_SIZE: usize = 816;
+pub const FSB_AXIS_SIZE: usize = 840;
 /// Alignment of fsb_axis_t.
 pub const FSB_AXIS_ALIGNMENT: usize = 8;
 
@@ -22,7 +22,7 @@ pub const FSB_AXIS_ALIGNMENT: usize = 8;
 #[repr(C)]
 pub struct fsb_axis_t {
     /// Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-    opaque: [u64; 102],
+    opaque: [u64; 105],
 }
 
 impl Object for fsb_axis_t {

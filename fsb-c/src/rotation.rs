@@ -14,7 +14,7 @@ use crate::status::fsb_status_t;
 use crate::values::{fsb_counters_t, fsb_diagnostics_t, fsb_parameter_t, fsb_state_sd_t, fsb_state_t};
 
 /// sizeof(fsb_rotation_t).
-pub const FSB_ROTATION_SIZE: usize = 1376;
+pub const FSB_ROTATION_SIZE: usize = 1424;
 /// Alignment of fsb_rotation_t.
 pub const FSB_ROTATION_ALIGNMENT: usize = 8;
 
@@ -23,7 +23,7 @@ pub const FSB_ROTATION_ALIGNMENT: usize = 8;
 #[repr(C)]
 pub struct fsb_rotation_t {
     /// Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-    opaque: [u64; 172],
+    opaque: [u64; 178],
 }
 
 impl Object for fsb_rotation_t {

@@ -14,7 +14,7 @@ use crate::status::fsb_status_t;
 use crate::values::{fsb_counters_t, fsb_diagnostics_t, fsb_parameter_t, fsb_state_sd_t, fsb_state_t};
 
 /// sizeof(fsb_translation_t).
-pub const FSB_TRANSLATION_SIZE: usize = 1192;
+pub const FSB_TRANSLATION_SIZE: usize = 1232;
 /// Alignment of fsb_translation_t.
 pub const FSB_TRANSLATION_ALIGNMENT: usize = 8;
 
@@ -23,7 +23,7 @@ pub const FSB_TRANSLATION_ALIGNMENT: usize = 8;
 #[repr(C)]
 pub struct fsb_translation_t {
     /// Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-    opaque: [u64; 149],
+    opaque: [u64; 154],
 }
 
 impl Object for fsb_translation_t {

@@ -11,15 +11,17 @@ const K: f64 = 0.7;
 const RUNS: u64 = 400;
 
 /// What is not as the model has it, at the time t (s): the noise (m), and an acceleration (m/s²) or a change of velocity (m/s) that
-/// nobody told.
+/// nobody told, which comes at one of these times. Measurements to a block.
 #[derive(Clone, Copy)]
 struct Disturbed {
     noise: fn(f64) -> f64,
     gust: f64,
     push: f64,
+    when: (f64, f64),
+    block: u32,
 }
 
-const QUIET: Disturbed = Disturbed { noise: |_| 1e-3, gust: 0.0, push: 0.0 };
+const QUIET: Disturbed = Disturbed { noise: |_| 1e-3, gust: 0.0, push: 0.0, when: (5.0, 20.0), block: 1 };
 
 /// The largest error of k in its standard deviations, at any time and after 40 s.
 fn fly(case: &Disturbed, seed: u64) -> [f64; 2] {
@@ -29,12 +31,13 @@ fn fly(case: &Disturbed, seed: u64) -> [f64; 2] {
     let config = EstimatorConfig::<1, 1> {
         identifier: Tuning::from_lambda(rng.random_range(1.0..4.0)),
         drift: [-9.81],
+        block: case.block,
         ..EstimatorConfig::new(period)
     };
     let mut estimator = Estimator::new(&config).expect("valid");
     let (rate, amplitude, phase) =
         (rng.random_range(0.5..4.0), rng.random_range(0.3..3.0), rng.random_range(0.0..core::f64::consts::TAU));
-    let (when, lasts) = (rng.random_range(5.0..20.0), rng.random_range(0.1..1.0));
+    let (when, lasts) = (rng.random_range(case.when.0..case.when.1), rng.random_range(0.1..1.0));
     let (mut y, mut v, mut worst, mut last) = (0.0, 0.0, 0.0_f64, f64::INFINITY);
     for n in 0..(40.0 / period) as u32 {
         let t = f64::from(n) * period;
@@ -98,5 +101,27 @@ fn what_happened_once() {
         let [worst, end] = spread(&format!("gust {} m/s², push {} m/s", case.gust, case.push), &case);
         assert!(worst[1] < 5.0 && worst[2] < 8.0, "{worst:?}");
         assert!((0.6..1.5).contains(&end[0]) && end[1] < 2.5, "{end:?}");
+    }
+}
+
+/// In the first seconds, while what noise and the gust make of k̂ is large: what the residuals show beyond measurement noise is no error of k̂,
+/// and stays in its standard deviation when noise and residuals have been forgotten.
+#[test]
+fn what_happened_early() {
+    for (gust, push) in [(0.6, 0.0), (3.0, 0.0), (0.0, 0.6)] {
+        let case = Disturbed { gust, push, when: (0.5, 3.0), ..QUIET };
+        let [worst, end] = spread(&format!("in the first seconds, gust {gust} m/s², push {push} m/s"), &case);
+        assert!(worst[0] < 4.0 && worst[1] < 10.0, "{worst:?}");
+        assert!((0.6..1.5).contains(&end[0]) && end[1] < 2.5, "{end:?}");
+    }
+}
+
+/// In large blocks, up to a third of 1/λ, one block alone moves k by all of a push: from that very moment on its standard deviation knows.
+#[test]
+fn a_push_in_one_block() {
+    for push in [0.6, -0.1] {
+        let [worst, end] = spread(&format!("push {push} m/s, blocks of 9"), &Disturbed { push, block: 9, ..QUIET });
+        assert!(worst[1] < 5.0 && worst[2] < 8.0, "{worst:?}");
+        assert!((0.5..1.5).contains(&end[0]) && end[1] < 2.5, "{end:?}");
     }
 }

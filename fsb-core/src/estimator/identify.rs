@@ -170,15 +170,16 @@ impl Axis {
         let to_mean = common.measurement_scale(clock);
         let quotient = parameter.ratio.quotient();
         let residual = z2 - quotient * z0;
+        let (up, down) = weight(common.readout, z2, z0);
         if self.gap == 0 || self.noise.is_known() {
             self.noise.add(
                 self.fine(step * step, common),
                 residual * residual * to_mean,
                 z2 * z2 * to_mean,
-                covariance.noise_memory,
+                down * z0,
+                (covariance.noise_memory, covariance.noise_forgetting),
             );
         }
-        let (up, down) = weight(common.readout, z2, z0);
         let mut stretch = 1.0;
         if self.noise.has_gaps() {
             // A block in which nothing came is not heard, and does not fade what was missing.
@@ -240,7 +241,9 @@ impl Axis {
     pub fn add_misfit(&self, to: &mut Misfit, per_stride: f32) {
         let sum = self.noise_sum.value();
         to.gain += sum;
-        to.variance += self.noise.variance() * per_stride * sum;
+        let share = per_stride * sum;
+        to.variance += self.noise.variance() * share;
+        to.measured += self.noise.measured() * share;
         if !self.present {
             return;
         }
@@ -281,6 +284,8 @@ pub(super) struct Misfit {
     gain: f32,
     /// σ² var a, the variance of the numerator of k̂.
     variance: f32,
+    /// The same of measurement noise alone.
+    measured: f32,
     /// What the model leaves unexplained beyond noise, and what there is to explain.
     pub unexplained: f32,
     pub signal: f32,
@@ -291,15 +296,15 @@ pub(super) struct Misfit {
 impl Misfit {
     /// Nothing yet, where a disturbance of that variance is expected, in the square of the position's unit.
     pub const fn beside(disturbance: f32) -> Self {
-        Self { known: true, gain: 0.0, variance: 0.0, unexplained: 0.0, signal: 0.0, disturbance }
+        Self { known: true, gain: 0.0, variance: 0.0, measured: 0.0, unexplained: 0.0, signal: 0.0, disturbance }
     }
 
     /// A gain below this is made of numbers that are too small for f32: of a window that has hardly opened yet.
     const LEAST: f32 = 1e-34;
 
-    /// The variance of the numerator, where it is known.
+    /// The variance of the numerator, where it is known, and what part of it measurement noise has by itself.
     #[inline(always)]
-    pub fn known_variance(&self) -> Option<f32> {
-        if self.known && self.gain >= Self::LEAST { Some(self.variance) } else { None }
+    pub fn known_variance(&self) -> Option<[f32; 2]> {
+        if self.known && self.gain >= Self::LEAST { Some([self.variance, self.measured]) } else { None }
     }
 }

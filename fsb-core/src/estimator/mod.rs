@@ -73,7 +73,9 @@ use shared::Progress;
 /// rejected measurement counts as missed, a rejected input is replaced by the axis's mean input of late.
 /// What is not valid is not handed out: see [`parameters`](Self::parameters) and [`states`](Self::states).
 /// No allocation, no panic, no transcendental, bounded work a call.
+// What every measurement touches comes first, within reach of one base address.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct Estimator<const N: usize, const P: usize> {
     frame: Frame<[Axis; N]>,
     parameters: [ParameterState; P],

@@ -99,6 +99,7 @@ impl<const N: usize, const P: usize> Whole for Estimator<N, P> {
             && self.frame.axes.iter().all(|axis| {
                 axis.model.is_sound(axis.own.drift_t2, common.period2)
                     && axis.observer.is_within(most)
+                    && axis.noise.is_sound()
                     && axis.origin.abs() <= most
                     && axis.moments.j1.abs() <= 2.0 * common.input_limit
                     && axis.moments.j2.abs() <= 2.0 * common.input_limit

@@ -10,8 +10,9 @@
 //! the model leaves unexplained tells whether the model holds at all. Each is a mean over the past,
 //! at first of all values, later over the last 256, or as many as the read-out remembers.
 //!
-//! k remembers longer than that: a gust that has passed, or noise that was, is in its sums for as long as they last. So the residual is
-//! averaged a second time over all that is remembered, and where it was larger that counts.
+//! k remembers longer than that: a gust that has passed, or noise that was, is in its sums for as long as they last, and what came while
+//! nothing moved is not. So both are averaged a second time over all that is remembered, each value weighing as much as the information
+//! ω ẑ0 that came with it, and where that is larger it counts: the level at which k was learned.
 //!
 //! What stands in for measurements that are missing is off by more than they would have been, and by the same for a whole gap:
 //! the share of them of late says by how much more the noise counts.
@@ -24,8 +25,10 @@ use crate::snapshot::stored;
 pub struct NoiseLevel {
     fine: f32,
     slow: f32,
-    /// The mean of what `slow` is of, over all that the read-out remembers.
-    whole: f32,
+    /// The means of both over all that the read-out remembers, weighed as it went in.
+    whole: [f32; 2],
+    /// What they weigh together: Σ ω ẑ0 of this axis.
+    weight: f32,
     /// Means of the residual and of what there is to explain, over a shorter past.
     residual: f32,
     signal: f32,
@@ -37,8 +40,6 @@ pub struct NoiseLevel {
 }
 
 impl NoiseLevel {
-    /// The longest memory of the level of the moment, in values.
-    const MEMORY: u16 = 256;
     /// Values before which the level is not trusted.
     const ENOUGH: u16 = 8;
     /// The memory of the misfit, in values: about 2.5/λ.
@@ -52,34 +53,57 @@ impl NoiseLevel {
     const STRETCH: f32 = 3.0;
     /// No more than so many times the variance of the measurement noise, as a number to reckon with.
     const MOST: f32 = 1e8;
+    /// A value that weighs less than this share of all moves their mean by less than it is rounded to.
+    const SLIGHT: f32 = 1.0 / 16_777_216.0;
+    /// A mean over more than 1/`LEAST` values of the same weight would move by less than f32 has digits for.
+    const LEAST: f32 = 1.0 / 1_048_576.0;
     /// A mean square below this is none; well above the subnormal numbers.
     const NOTHING: f32 = 1e-30;
 
     /// Nothing seen yet.
-    pub(crate) const UNKNOWN: Self =
-        Self { fine: 0.0, slow: 0.0, whole: 0.0, residual: 0.0, signal: 0.0, values: 0, gaps: 0.0, absent: 0 };
+    pub(crate) const UNKNOWN: Self = Self {
+        fine: 0.0,
+        slow: 0.0,
+        whole: [0.0; 2],
+        weight: 0.0,
+        residual: 0.0,
+        signal: 0.0,
+        values: 0,
+        gaps: 0.0,
+        absent: 0,
+    };
 
-    /// The memory of a read-out that forgets by e^(-`fading`) from value to value.
+    /// The memory of the level of the moment, for a read-out that forgets by e^(-`fading`) from value to value.
     pub(crate) fn memory(fading: f32) -> u16 {
-        // Infinite where nothing is forgotten; no number of values is more than u32 holds.
-        (1.0 / fading).clamp(16.0, f32::from(u16::MAX)) as u32 as u16
+        // Infinite where nothing is forgotten.
+        (1.0 / fading).clamp(16.0, 256.0) as u32 as u16
     }
 
     /// A level known beforehand; it counts as much as the least number of values that is trusted.
     pub(crate) const fn expected(variance: f32) -> Self {
-        Self { fine: variance, slow: variance, whole: variance, values: Self::ENOUGH, ..Self::UNKNOWN }
+        Self { fine: variance, slow: variance, whole: [variance; 2], values: Self::ENOUGH, ..Self::UNKNOWN }
     }
 
-    /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2. `memory`
-    /// is that of the read-out, in values.
-    pub(crate) fn add(&mut self, fine: f32, slow: f32, signal: f32, memory: u16) {
+    /// Adds one value of each: `fine` from the innovations, `slow` from the residual, `signal` from ẑ2. `weight` is the ω ẑ0, positive,
+    /// that went into the sums with them. `remembers`: how many values the level of the moment is a mean of, and by what share their part in the
+    /// variance of k̂ fades from value to value.
+    pub(crate) fn add(&mut self, fine: f32, slow: f32, signal: f32, weight: f32, remembers: (u16, f32)) {
+        let (memory, forgetting) = remembers;
         if self.values < memory {
             self.values += 1;
         }
-        self.whole += (slow - self.whole) / f32::from(self.values);
-        let gain = 1.0 / f32::from(if self.values < Self::MEMORY { self.values } else { Self::MEMORY });
+        let gain = 1.0 / f32::from(self.values);
         self.fine += gain * (fine - self.fine);
         self.slow += gain * (slow - self.slow);
+        self.weight += weight - if forgetting > Self::LEAST { forgetting } else { Self::LEAST } * self.weight;
+        if weight > Self::SLIGHT * self.weight {
+            // At first a few values carry most of the weight, and are no level: these means move no faster than those of late.
+            let share = weight / self.weight;
+            let gain = if share < gain { share } else { gain };
+            let [whole_fine, whole_slow] = &mut self.whole;
+            *whole_fine += gain * (fine - *whole_fine);
+            *whole_slow += gain * (slow - *whole_slow);
+        }
         let gain = 1.0 / f32::from(if self.values < Self::RECENT { self.values } else { Self::RECENT });
         self.residual += gain * (slow - self.residual);
         self.signal += gain * (signal - self.signal);
@@ -128,8 +152,15 @@ impl NoiseLevel {
 
     /// σ², in the square of the position's unit, of the means that the identifier works on.
     pub fn variance(&self) -> f32 {
-        let slow = if self.slow > self.whole { self.slow } else { self.whole };
-        if slow > self.fine { slow } else { self.fine }
+        let (fine, [_, whole]) = (self.measured(), self.whole);
+        let slow = if self.slow > whole { self.slow } else { whole };
+        if slow > fine { slow } else { fine }
+    }
+
+    /// The same of measurement noise alone, as it shows from sample to sample.
+    pub(crate) fn measured(&self) -> f32 {
+        let [whole, _] = self.whole;
+        if self.fine > whole { self.fine } else { whole }
     }
 
     /// Both: from sample to sample, and in the band of the identifier.
@@ -148,6 +179,11 @@ impl NoiseLevel {
     pub(crate) fn variance_beside(&self, share: f32, expected: f32) -> f32 {
         let slow = share * if self.slow > expected { self.slow } else { expected };
         if slow > self.fine { slow } else { self.fine }
+    }
+
+    /// Whether it can be what values were added to.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.weight >= 0.0
     }
 
     /// Whether enough values have been seen.
@@ -174,4 +210,4 @@ pub(crate) fn innovation_step_gain(p: f32) -> f32 {
     4.0 * (5.0 - p * p) / (q * q * q)
 }
 
-stored!(NoiseLevel { fine, slow, whole, residual, signal, values, gaps, absent });
+stored!(NoiseLevel { fine, slow, whole, weight, residual, signal, values, gaps, absent });

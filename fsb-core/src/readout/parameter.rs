@@ -101,6 +101,8 @@ pub(crate) struct ParameterState {
     /// What noise makes of the newest quotient's variance, and the square of what else it may be off by, relative to itself.
     of_noise: f32,
     doubt: f32,
+    /// What measurement noise alone makes of its variance, without what the residuals have added to the level.
+    of_measurement: f32,
     pub status: ParameterStatus,
     read: bool,
     credible: bool,
@@ -137,7 +139,7 @@ impl ParameterState {
     pub const BLANK: Self = {
         let rule = CheckedRule { min: 0.0, max: 0.0, relative_variance: 0.0, limit_to_stay: 0.0 };
         let nothing = Parameter { value: 0.0, variance: 0.0 };
-        Self { variance: 0.0, of_noise: 0.0, fresh: nothing, ..Self::start(0, None, rule) }
+        Self { variance: 0.0, of_noise: 0.0, of_measurement: 0.0, fresh: nothing, ..Self::start(0, None, rule) }
     };
 
     /// Nothing known, to be read out of so many axes: no quotient, and a variance above any limit.
@@ -148,6 +150,7 @@ impl ParameterState {
             variance: f32::MAX,
             of_noise: f32::MAX,
             doubt: 0.0,
+            of_measurement: f32::MAX,
             status: ParameterStatus::Settling,
             read: false,
             credible: false,
@@ -245,6 +248,10 @@ impl ParameterState {
             let before = 1.0 - step.added * per_information;
             let weight = step.weight * per_information;
             self.disturbance = known(before * before * self.disturbance + weight * weight * step.disturbance);
+            // The quotient is handed out with this step in it before the variance is read.
+            if step.disturbance > 0.0 {
+                self.add_doubt(self.newest().value);
+            }
         }
         self.skip_coarse_step();
     }
@@ -293,18 +300,22 @@ impl ParameterState {
     /// A controller that feeds the estimates back answers to measurement noise with an input that goes with it. Where hardly
     /// anything else moves, that pulls the quotient towards zero, by a share of about ½ Σ var ẑ2 / Σ (k ẑ0)² (observed: 38 %
     /// at 1.3 times the noise). The square of it counts as variance.
-    pub fn read_variance(&mut self, numerator: Option<f32>, scale2: f32) {
+    pub fn read_variance(&mut self, numerator: Option<[f32; 2]>, scale2: f32) {
         self.stale = false;
         let information = self.information.value();
-        if let Some(variance) = numerator
+        if let Some([variance, measured]) = numerator
             && information > 0.0
         {
             let quotient = self.ratio.quotient();
             let pull = 0.5 * self.echo.value() / (quotient * information);
             let rounding = Self::ROUNDING * quotient;
-            let variance = (variance / information) * (scale2 / information) + (pull * pull + rounding * rounding);
+            let (scale, least) = (scale2 / information, pull * pull + rounding * rounding);
             // Rounding can take a sum of next to nothing below zero; no quotient yet makes it infinite.
-            self.of_noise = if variance >= 0.0 { known(variance) } else { f32::MAX };
+            let of = |variance: f32| {
+                let variance = (variance / information) * scale + least;
+                if variance >= 0.0 { known(variance) } else { f32::MAX }
+            };
+            (self.of_noise, self.of_measurement) = (of(variance), of(measured));
             self.add_doubt(quotient);
         }
     }
@@ -352,9 +363,10 @@ impl ParameterState {
         if self.is_held() { self.fresh } else { self.newest_or_held() }
     }
 
-    /// The variance of the `quotient` without what disturbances add to it.
+    /// The variance of the `quotient` by measurement noise, and what else it may be off by. Not by disturbances; nor by what the level of the noise
+    /// has risen by because of them: they would hide behind it until it is forgotten, and be forgotten with it.
     pub fn undisturbed_variance(&self, quotient: f32) -> f32 {
-        self.of_noise + self.doubt * (quotient * quotient)
+        self.of_measurement + self.doubt * (quotient * quotient)
     }
 
     /// The newest quotient of a parameter that is not held; zero before there is any.
@@ -449,6 +461,7 @@ stored!(ParameterState {
     variance,
     of_noise,
     doubt,
+    of_measurement,
     status,
     read,
     credible,
@@ -469,7 +482,8 @@ impl ParameterState {
     pub(crate) fn is_sound(&self) -> bool {
         let rule = &self.rule;
         let in_range = |k: Parameter| k.value >= rule.min && k.value <= rule.max;
-        let variances = [self.variance, self.fresh.variance, self.of_noise, self.doubt, self.disturbance];
+        let variances =
+            [self.variance, self.fresh.variance, self.of_noise, self.of_measurement, self.doubt, self.disturbance];
         variances.iter().all(|variance| *variance >= 0.0) && self.valid().is_none_or(in_range)
     }
 }

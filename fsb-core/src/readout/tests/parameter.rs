@@ -29,7 +29,7 @@ fn tell(state: &mut ParameterState, k: f32, relative_sd: f32) {
     state.ratio.fold();
     state.step_coarsely(&CoarseStep { added: 1e4, ..CoarseStep::default() }, 1.0);
     let sd = relative_sd * k * 1e4;
-    state.read_variance(Some(sd * sd), 1.0);
+    state.read_variance(Some([sd * sd; 2]), 1.0);
     state.read(true);
 }
 
@@ -71,7 +71,7 @@ fn each_status_has_its_reason() {
     let mut exact = rule(0.5);
     exact.ratio.add(Readout::LeastSquares, 1.0, 1.0, 0.0);
     exact.step_coarsely(&CoarseStep { added: 1.0, ..CoarseStep::default() }, 0.0);
-    exact.read_variance(Some(0.25), 1.0);
+    exact.read_variance(Some([0.25; 2]), 1.0);
     exact.read(true);
     assert_eq!(exact.status, ParameterStatus::Valid);
 }
@@ -149,7 +149,7 @@ fn the_variance_is_the_sum_of_its_causes() {
         let mut state = open();
         state.ratio.add(Readout::LeastSquares, k * z0, z0, 0.0);
         state.step_coarsely(&CoarseStep { added: z0 * z0, noise: echo, ..CoarseStep::default() }, 0.0);
-        state.read_variance(Some(variance), scale2);
+        state.read_variance(Some([variance; 2]), scale2);
         let information = f64::from(z0 * z0);
         let pull = 0.5 * f64::from(echo) / (f64::from(k) * information);
         let rounding = 1e-7 * f64::from(k);
@@ -178,7 +178,7 @@ fn disturbances_count_as_they_went_in() {
             squares = kept * kept * squares + f64::from(z0 * z0 * beyond);
             information = kept * information + f64::from(z0 * z0);
         }
-        state.read_variance(Some(0.0), 1.0);
+        state.read_variance(Some([0.0; 2]), 1.0);
         let expected = CORRELATION * squares / (information * information);
         let read = f64::from(variance_of(&mut state));
         assert!((read / expected - 1.0).abs() < 1e-4, "{forgetting}: {read:e} for {expected:e}");
@@ -194,7 +194,7 @@ fn the_sums_of_coarse_steps_fade() {
     for _ in 0..400 {
         state.step_coarsely(&CoarseStep { added: 3.0, noise: 0.5, ..CoarseStep::default() }, forgetting);
     }
-    state.read_variance(Some(0.0), 1.0);
+    state.read_variance(Some([0.0; 2]), 1.0);
     // Σ ω ẑ0 = 30, Σ var ẑ2 = 5: the pull is ½ 5/(2 · 30).
     let expected = 1.0_f32 / 24.0;
     let variance = variance_of(&mut state);
