@@ -207,9 +207,13 @@ impl Detector {
         self.residuals.are_behind(blocks)
     }
 
-    /// After a step of the identifier, as [`observe`](Self::observe): whether a parameter has changed.
-    pub fn observe_residuals(&mut self, view: &IdentifierView<3>, known: &[Option<f32>; 3]) -> bool {
-        self.residuals.observe(view, known) && self.instants > self.hold_off
+    /// After a step of the identifier, as [`observe`](Self::observe): whether a parameter has changed. `learned` is k of each axis, where it is
+    /// identified, even if it has become too uncertain since it was known.
+    pub fn observe_residuals(&mut self, view: &IdentifierView<3>, mut learned: [Option<f32>; 3]) -> bool {
+        for (k, _) in learned.iter_mut().zip(&self.was_known).filter(|(_, was_known)| !**was_known) {
+            *k = None;
+        }
+        self.residuals.observe(view, &learned) && self.instants > self.hold_off
     }
 
     /// What a parameter that has just become known left in the innovations while another value was predicted with, its own and by

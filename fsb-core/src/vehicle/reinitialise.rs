@@ -67,7 +67,8 @@ impl<const D: usize> VehicleEstimator<D> {
         let view = self.translation.innovation_view();
         let mut changed = detector.observe(&view, &known, &[contradicted, false, false]);
         if detector.is_behind(self.translation.identifier_blocks()) && self.translation.identifier_rests() {
-            changed |= detector.observe_residuals(&self.translation.identifier_view(), &known);
+            let [k] = learned(&self.translation);
+            changed |= detector.observe_residuals(&self.translation.identifier_view(), [k, None, None]);
         }
         if changed {
             detector.doubt.begin();
@@ -82,7 +83,7 @@ impl<const D: usize> VehicleEstimator<D> {
         let (known, contradicted) = (identified(&self.rotation), contradicted(&self.rotation));
         let mut changed = detector.observe(&self.rotation.innovation_view(), &known, &contradicted);
         if detector.is_behind(self.rotation.identifier_blocks()) && self.rotation.identifier_rests() {
-            changed |= detector.observe_residuals(&self.rotation.identifier_view(), &known);
+            changed |= detector.observe_residuals(&self.rotation.identifier_view(), learned(&self.rotation));
         }
         if changed {
             detector.doubt.begin();
@@ -109,6 +110,18 @@ fn identified<const P: usize>(estimator: &Estimator<3, P>) -> [Option<f32>; P] {
     for (value, status) in values.iter_mut().zip(estimator.parameter_status()) {
         if status != ParameterStatus::Valid {
             *value = None;
+        }
+    }
+    values
+}
+
+/// The same, and of those that have become too uncertain: what made them so may be a change.
+fn learned<const P: usize>(estimator: &Estimator<3, P>) -> [Option<f32>; P] {
+    let mut values = identified(estimator);
+    let all = values.iter_mut().zip(estimator.parameter_status()).zip(estimator.rough_parameters());
+    for ((value, status), rough) in all {
+        if status == ParameterStatus::Uncertain && estimator.learning() == Learning::On {
+            *value = rough.map(|k| k.value);
         }
     }
     values
