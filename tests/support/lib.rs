@@ -8,5 +8,6 @@ pub mod fly;
 pub mod rigid_body;
 pub mod seal;
 pub mod six_axes;
+pub mod subnormal;
 pub mod turbulence;
 pub mod words;

@@ -59,6 +59,8 @@ impl NoiseLevel {
     const LEAST: f32 = 1.0 / 1_048_576.0;
     /// A mean square below this is none; well above the subnormal numbers.
     const NOTHING: f32 = 1e-30;
+    /// Added to means at every value: of nothing but zeros they end here, and not among the subnormal numbers.
+    const ABOVE_SUBNORMAL: f32 = 1e-36;
 
     /// Nothing seen yet.
     pub(crate) const UNKNOWN: Self = Self {
@@ -93,20 +95,21 @@ impl NoiseLevel {
             self.values += 1;
         }
         let gain = 1.0 / f32::from(self.values);
-        self.fine += gain * (fine - self.fine);
-        self.slow += gain * (slow - self.slow);
-        self.weight += weight - if forgetting > Self::LEAST { forgetting } else { Self::LEAST } * self.weight;
+        self.fine += gain * (fine - self.fine) + Self::ABOVE_SUBNORMAL;
+        self.slow += gain * (slow - self.slow) + Self::ABOVE_SUBNORMAL;
+        let faded = if forgetting > Self::LEAST { forgetting } else { Self::LEAST } * self.weight;
+        self.weight += weight - faded + Self::ABOVE_SUBNORMAL;
         if weight > Self::SLIGHT * self.weight {
             // At first a few values carry most of the weight, and are no level: these means move no faster than those of late.
             let share = weight / self.weight;
             let gain = if share < gain { share } else { gain };
             let [whole_fine, whole_slow] = &mut self.whole;
-            *whole_fine += gain * (fine - *whole_fine);
-            *whole_slow += gain * (slow - *whole_slow);
+            *whole_fine += gain * (fine - *whole_fine) + Self::ABOVE_SUBNORMAL;
+            *whole_slow += gain * (slow - *whole_slow) + Self::ABOVE_SUBNORMAL;
         }
         let gain = 1.0 / f32::from(if self.values < Self::RECENT { self.values } else { Self::RECENT });
-        self.residual += gain * (slow - self.residual);
-        self.signal += gain * (signal - self.signal);
+        self.residual += gain * (slow - self.residual) + Self::ABOVE_SUBNORMAL;
+        self.signal += gain * (signal - self.signal) + Self::ABOVE_SUBNORMAL;
     }
 
     /// A measurement was missing; `gain` is the share that one measurement has in the memory.

@@ -132,6 +132,9 @@ impl ParameterState {
     /// What rounding leaves of k, however long it is looked at.
     const ROUNDING: f32 = 1e-7;
 
+    /// A variance below this is none: it does not end among the subnormal numbers.
+    const NOTHING: f32 = 1e-36;
+
     /// Some 2/λ.
     const SUSPECT: u8 = 25;
 
@@ -247,7 +250,8 @@ impl ParameterState {
             let per_information = 1.0 / self.information.value();
             let before = 1.0 - step.added * per_information;
             let weight = step.weight * per_information;
-            self.disturbance = known(before * before * self.disturbance + weight * weight * step.disturbance);
+            let disturbance = before * before * self.disturbance + weight * weight * step.disturbance;
+            self.disturbance = if disturbance < Self::NOTHING { 0.0 } else { known(disturbance) };
             // The quotient is handed out with this step in it before the variance is read.
             if step.disturbance > 0.0 {
                 self.add_doubt(self.newest().value);

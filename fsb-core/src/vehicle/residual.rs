@@ -20,7 +20,8 @@ struct Sums {
 impl Sums {
     fn fade(&mut self, keep: f32) {
         for sum in [&mut self.squares, &mut self.product, &mut self.square, &mut self.values] {
-            *sum *= keep;
+            let faded = keep * *sum;
+            *sum = if faded.abs() < Self::NOTHING { 0.0 } else { faded };
         }
     }
 
@@ -44,6 +45,8 @@ impl Sums {
         self.product.abs() > relative * self.square && explained > sigmas2 && 2.0 * explained > beyond_noise
     }
 
+    /// Sums below this are none: they do not end among the subnormal numbers.
+    const NOTHING: f32 = 1e-30;
     /// What noise makes of w e², at most.
     const NOISE: f32 = 1.5;
     /// The square of what rounding makes of e.

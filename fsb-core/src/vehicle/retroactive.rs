@@ -33,6 +33,16 @@ struct Chain {
     x: [f32; 3],
 }
 
+/// Products of rates below this are none, (rad/s)²; and where chains and means of nothing end, instead of decaying through the subnormal
+/// numbers.
+const NOTHING: f32 = 1e-30;
+
+/// A product of rates.
+#[inline(always)]
+fn noticed(w: f32) -> f32 {
+    if w.abs() < NOTHING { 0.0 } else { w }
+}
+
 impl Chain {
     /// The interval has ended. The identity's S joins the block.
     fn sample(&mut self) {
@@ -48,7 +58,7 @@ impl Chain {
         let s = if view.per_length == 1.0 { mean } else { 0.5 * (mean + self.before) };
         self.before = mean;
         let [x4, x5, x6] = &mut self.x;
-        *x6 += view.c * (view.weight * s - *x6);
+        *x6 += view.c * (view.weight * s - *x6) + NOTHING;
         *x5 += view.c * (*x6 - *x5);
         *x4 += view.c * (*x5 - *x4);
         *x4
@@ -123,7 +133,8 @@ impl Retroactive {
     /// A control period with w and the γ₀ that was used with it.
     pub fn hold(&mut self, products: &[f32; 3], used: &[f32; 3]) {
         for ((axis, w), gamma) in self.axes.iter_mut().zip(products).zip(used) {
-            axis.own.moments.hold(*w, &self.substep);
+            let w = noticed(*w);
+            axis.own.moments.hold(w, &self.substep);
             axis.used.moments.hold(gamma * w, &self.substep);
         }
     }
@@ -135,13 +146,13 @@ impl Retroactive {
         let innovations = view.innovations.iter().zip(&self.innovations).zip(&mut self.lacked);
         for (lacked, ((now, before), of_late)) in lacked.iter_mut().zip(innovations) {
             *lacked = (now - view.m1 * before) / period;
-            *of_late += 0.125 * (*lacked - *of_late);
+            *of_late += 0.125 * (*lacked - *of_late) + NOTHING;
         }
         let [dp, dq, dr] = lacked;
         // The product of two noises would be one more of them; that of their means hardly is any.
         let [ep, eq, er] = self.lacked;
         let products = [q * dr + r * dq + eq * er, r * dp + p * dr + er * ep, p * dq + q * dp + ep * eq];
-        for (axis, w) in self.axes.iter_mut().zip(products) {
+        for (axis, w) in self.axes.iter_mut().zip(products.map(noticed)) {
             axis.own.moments.j1 += w;
             axis.own.moments.j2 += 0.5 * w;
         }
