@@ -192,7 +192,7 @@
 #define FSB_PARAMETER_HELD 9
 
 // sizeof(fsb_vehicle_t).
-#define FSB_VEHICLE_SIZE 10624
+#define FSB_VEHICLE_SIZE 10816
 
 // Alignment of fsb_vehicle_t.
 #define FSB_VEHICLE_ALIGNMENT 8
@@ -658,7 +658,7 @@ typedef struct fsb_measured_t {
 // attitudes and from what its actuators did. Storage of the caller, static or a member: too large for most stacks.
 typedef struct fsb_vehicle_t {
   // Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-  uint64_t opaque[1328];
+  uint64_t opaque[1352];
 } fsb_vehicle_t;
 
 // Force and torque on the body about its centre of mass, along the body's axes.

@@ -30,7 +30,7 @@ use crate::status::{FSB_MISALIGNED, FSB_UNKNOWN_VALUE, fsb_status_t};
 use crate::values::fsb_diagnostics_t;
 
 /// sizeof(fsb_vehicle_t).
-pub const FSB_VEHICLE_SIZE: usize = 10752;
+pub const FSB_VEHICLE_SIZE: usize = 10816;
 /// Alignment of fsb_vehicle_t.
 pub const FSB_VEHICLE_ALIGNMENT: usize = 8;
 /// The largest latency that can be configured [control periods]: how many of them an fsb_vehicle_t has room for.
@@ -46,7 +46,7 @@ pub const FSB_GROUP_ROTATION: u32 = 1;
 #[repr(C)]
 pub struct fsb_vehicle_t {
     /// Not to be touched. Copying the whole object is fine, and the copy goes on from there.
-    opaque: [u64; 1344],
+    opaque: [u64; 1352],
 }
 
 /// What is kept in the storage.
