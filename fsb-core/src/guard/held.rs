@@ -17,6 +17,8 @@ pub(super) struct Held {
 }
 
 impl Held {
+    /// A step below this is none (m or rad).
+    const NOTHING: f32 = 1e-12;
     /// A step smaller than the largest one counts for an eighth; where nothing comes again that is forgotten sooner or later.
     const FORGETS: f32 = 0.125;
 
@@ -42,9 +44,9 @@ impl Held {
             return;
         }
         if self.before > 0 {
-            self.pending = step.abs();
+            self.pending = if step.abs() > Self::NOTHING { step.abs() } else { 0.0 };
         } else if self.step > 0.0 {
-            self.step -= Self::FORGETS * self.step;
+            self.step = if self.step > Self::NOTHING { (1.0 - Self::FORGETS) * self.step } else { 0.0 };
         }
     }
 
