@@ -22,8 +22,13 @@ impl Held {
     /// A step smaller than the largest one counts for an eighth; where nothing comes again that is forgotten sooner or later.
     const FORGETS: f32 = 0.125;
 
-    /// The same value once more.
+    /// Nothing has come again of late: the usual case, which is to cost next to nothing.
     #[inline(always)]
+    const fn is_usual(&self) -> bool {
+        self.before == 0 && self.step.to_bits() == 0
+    }
+
+    /// The same value once more.
     pub fn once_more(&mut self) {
         self.repeated = self.repeated.saturating_add(1);
         if self.pending > 0.0 {
@@ -34,18 +39,24 @@ impl Held {
     /// Another value.
     #[inline(always)]
     pub fn next(&mut self) {
-        (self.before, self.repeated, self.pending) = (self.repeated, 0, 0.0);
+        if self.repeated != 0 || self.before != 0 {
+            (self.before, self.repeated, self.pending) = (self.repeated, 0, 0.0);
+        }
     }
 
     /// The measurement was used. `step` is that of the innovation.
     #[inline(always)]
     pub fn learn(&mut self, step: f32) {
-        if self.repeated > 0 {
-            return;
+        if !self.is_usual() && self.repeated == 0 {
+            self.learn_step(step.abs());
         }
+    }
+
+    #[inline(never)]
+    fn learn_step(&mut self, step: f32) {
         if self.before > 0 {
-            self.pending = if step.abs() > Self::NOTHING { step.abs() } else { 0.0 };
-        } else if self.step > 0.0 {
+            self.pending = if step > Self::NOTHING { step } else { 0.0 };
+        } else {
             self.step = if self.step > Self::NOTHING { (1.0 - Self::FORGETS) * self.step } else { 0.0 };
         }
     }
@@ -69,6 +80,11 @@ impl Held {
     /// in that time, as much again at most. `fall` is what that is in one sample.
     #[inline(always)]
     pub fn allowance(&self, fall: f32) -> f32 {
+        if self.is_usual() { 0.0 } else { self.allowance_of_steps(fall) }
+    }
+
+    #[inline(never)]
+    fn allowance_of_steps(&self, fall: f32) -> f32 {
         let usual = 2.0 * self.step;
         let stood = if self.repeated > 0 { 0.0 } else { f32::from(self.before) };
         let more = fall * (stood * stood);
