@@ -93,7 +93,7 @@ fn arguments(files: Option<&str>, shard: Option<&str>) -> Vec<String> {
     }
     let mut words: Vec<String> = words.into_iter().map(str::to_owned).collect();
     // For the build as well, which would otherwise be of every test there is.
-    words.push("--cargo-arg=--lib".into());
+    words.extend(["--cargo-arg=--package=fsb-tests".into(), "--cargo-arg=--lib".into()]);
     words.extend(TESTS.iter().map(|test| format!("--cargo-arg=--test={test}")));
     words
 }
